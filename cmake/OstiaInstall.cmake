@@ -49,7 +49,7 @@ endforeach()
 install(TARGETS ostia-worker RUNTIME DESTINATION "${CMAKE_INSTALL_LIBEXECDIR}/ostia" COMPONENT programs)
 
 # The workflow for a cohort, which calls the program.
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/ostia/workflow" DESTINATION "${CMAKE_INSTALL_DATADIR}/ostia" COMPONENT programs)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/ostia/workflow" DESTINATION "${CMAKE_INSTALL_DATADIR}/ostia" USE_SOURCE_PERMISSIONS COMPONENT programs)
 
 # The window.
 if(TARGET ostia-workstation)

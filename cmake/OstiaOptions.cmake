@@ -49,8 +49,8 @@ option(OSTIA_PCH "Compile headers that most sources read once for all" ON)
 find_program(OSTIA_CCACHE ccache)
 if(OSTIA_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # With precompiled headers ccache finds again what it kept only where it is told that time stamps do not matter; what is
-  # in the files does.
-  set(CMAKE_C_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime "${OSTIA_CCACHE}")
+  # in the files does. What a source includes it is told by the compiler, which saves a run of the preprocessor.
+  set(CMAKE_C_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime "${OSTIA_CCACHE}")
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_C_COMPILER_LAUNCHER})
 endif()
 find_program(OSTIA_MOLD mold)

@@ -25,7 +25,7 @@ HEADERS_MAY_SHOW_THIRD_PARTIES = {"view", "glview"}
 QUARANTINE = {
     "tetgen.h": re.compile(r"libs/meshing/src/mesher/tetgen\w*\.cpp$"),
     "cholmod.h": re.compile(r"libs/lumen/src/interpolation/sparse_factor\.cpp$"),
-    "sqlite3.h": re.compile(r"libs/(session|cohort)/src/\w+\.(cpp|h)$"),
+    "sqlite3.h": re.compile(r"libs/(session|cohort)/src/[\w/]+\.(cpp|h)$"),
 }
 # The workstation: its frame, and a folder for what a user does, each of which may use the frame and those before it.
 # The window that puts them together is known in these sources alone.

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Makes the pictures of the user's manual anew, with the program itself on the sample case, by keys and mouse:
-# scripts/make_screenshots.sh [BUILD_FOLDER [PART...]]. The parts: sample (all that is on the sample case; five
-# minutes on two cores, most of it for the case itself), keys, calcium (of the scan in OSTIA_SHARED_DATA), fat (of
-# the sample case), comparison (of a synthetic patient scanned twice), pacs (needs orthanc). All of them without a name.
+# scripts/make_screenshots.sh [BUILD_FOLDER [PART...]]. The parts: sample (most of what is on the sample case; five
+# minutes on two cores, most of it for the case itself), heart (of the sample case), keys, calcium (of the scan in
+# OSTIA_SHARED_DATA), fat (of the sample case), comparison (of a synthetic patient scanned twice), pacs (needs orthanc).
+# All of them without a name.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=${1:-build/release}/bin
 shift || true
-parts=${*:-sample keys calcium fat comparison pacs}
+parts=${*:-sample heart keys calcium fat comparison pacs}
 [ -x "$bin/ostia-workstation" ] || scripts/build.sh release
 out=docs/images/manual
 mkdir -p "$out"
@@ -140,7 +141,11 @@ of_sample() {
   command "Set orientation"
   shot orientation 2
   keys Escape
-  front
+  done_with
+}
+
+of_heart() {
+  sample
   command "Look: coronary arteries"
   command "Box with handles"
   keys alt+6 F11

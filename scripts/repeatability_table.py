@@ -2,7 +2,7 @@
 """The program's own table of repeatability from a cohort of pairs without a change between their scans.
 
     ostia compare --pairs unchanged.csv -o cohort
-    scripts/repeatability_table.py cohort/cohort.json > libs/analysis/src/repeatability_table.h
+    scripts/repeatability_table.py cohort/cohort.json > libs/analysis/src/change/repeatability_table.h
 """
 import json
 import sys

@@ -21,7 +21,7 @@ tests() {
 scripts/build.sh release
 export CTEST_OUTPUT_ON_FAILURE=1
 if [ "$all" = yes ]; then
-  scripts/install_packages.sh scripts/packages-slow.txt  # what slow tests alone need, half a gigabyte
+  scripts/install_packages.sh scripts/packages-slow.txt  # what slow tests alone need, a gigabyte
   tests build/release --parallel "$(nproc)"
   scripts/build.sh release benchmarks
   scripts/build.sh plain

@@ -26,6 +26,14 @@ void read_value(const std::string& type, OptionDescription& option) {
   for (std::string word; std::getline(words, word, ',');) option.choices.push_back(word);
 }
 
+/// Of a flag that stands for a word, "--uncertainty{usual}"; "!--no-search" stands for false, and takes
+/// nothing.
+bool is_flag_or_value(const CLI::Option& given) {
+  if (given.get_fnames().empty()) return false;
+  const std::string stands_for = given.get_flag_value(given.get_fnames().front(), "");
+  return stands_for != "true" && stands_for != "false";
+}
+
 OptionDescription describe(const CLI::Option& given) {
   OptionDescription option;
   for (const std::string& name : given.get_snames()) option.names.push_back("-" + name);
@@ -38,6 +46,7 @@ OptionDescription describe(const CLI::Option& given) {
   option.text = given.get_description();
   option.required = given.get_required();
   option.repeats = given.get_items_expected_max() > 1;
+  option.flag_or_value = is_flag_or_value(given);
   return option;
 }
 

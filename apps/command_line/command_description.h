@@ -19,6 +19,7 @@ struct OptionDescription {
   std::string text;
   bool required = false;
   bool repeats = false;
+  bool flag_or_value = false;  ///< a flag, so `value` is empty, that also takes a value: --name=VALUE
 
   bool positional() const { return names.front().front() != '-'; }
   /// Its value may be the name of a file or folder.

@@ -31,7 +31,8 @@ nlohmann::ordered_json json_of(const CommandDescription& command) {
                        {"limits", option.limits},
                        {"text", option.text},
                        {"required", option.required},
-                       {"repeats", option.repeats}});
+                       {"repeats", option.repeats},
+                       {"flag_or_value", option.flag_or_value}});
   for (const CommandDescription& below : command.commands) commands.push_back(json_of(below));
   return {{"words", command.words}, {"text", command.text}, {"options", options}, {"commands", commands}};
 }

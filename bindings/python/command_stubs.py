@@ -34,7 +34,7 @@ def run(words: list[str], progress: Progress | None = ...) -> Result: ...
 
 def type_of(option):
     if not option["value"]:
-        return "bool"
+        return "bool | Value" if option["flag_or_value"] else "bool"
     one = TYPES.get(option["value"], "Value")
     if option["choices"]:
         one = "Literal[" + ", ".join(json.dumps(word) for word in option["choices"]) + "]"

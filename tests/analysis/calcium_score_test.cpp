@@ -1,6 +1,6 @@
 #include "ostia/analysis/calcium_score.h"
 
-#include "calcium_spots.h"
+#include "calcium/calcium_spots.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"

@@ -1,6 +1,6 @@
 // Closed lines in a plane against exact formulas.
 
-#include "contour_measures.h"
+#include "walls/contour_measures.h"
 
 #include <gtest/gtest.h>
 

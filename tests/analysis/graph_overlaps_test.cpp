@@ -1,7 +1,7 @@
 #include "ostia/analysis/graph_overlaps.h"
 
 #include "graph_trees.h"
-#include "round_cones.h"
+#include "growth/round_cones.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"

@@ -1,6 +1,6 @@
-#include "growth_topology.h"
+#include "growth/growth_topology.h"
 
-#include "growth_random.h"
+#include "growth/growth_random.h"
 
 #include "ostia/analysis/coronary_morphometry.h"
 #include "ostia/core/error.h"

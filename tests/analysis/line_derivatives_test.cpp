@@ -1,7 +1,7 @@
-#include "line_derivatives.h"
+#include "branches/line_derivatives.h"
 
+#include "moving/smooth_cage.h"
 #include "moving_shapes.h"
-#include "smooth_cage.h"
 
 #include <gtest/gtest.h>
 

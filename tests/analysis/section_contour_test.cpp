@@ -1,6 +1,6 @@
 // The lumen's outline on a section, of fields that are known by formula.
 
-#include "section_contour.h"
+#include "walls/section_contour.h"
 
 #include "analytic_fields.h"
 #include "vessel_trees.h"

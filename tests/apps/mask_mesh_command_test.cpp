@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,11 @@ const fs::path& painted_masks() {
     imaging::write_image(made / "empty.nrrd", empty);
     imaging::write_image(made / "full.nrrd", full);
     imaging::write_image(made / "specks.nrrd", specks);
+    imaging::MaskVolume sponge = empty_grid();  // a third of the voxels in a part of it, at random
+    std::uint32_t random = 1;
+    for (std::size_t v = 0; v < 50000; ++v)
+      sponge.voxels[v] = (random = random * 1664525u + 1013904223u) >> 24 < 85u ? 1 : 0;
+    imaging::write_image(made / "sponge.nrrd", sponge);
     return made;
   }();
   return folder;
@@ -125,6 +131,7 @@ TEST(MaskMeshCommands, MasksWithoutVesselsAreRefusedByBothCommandsAndLeaveNoFold
   refused("empty.nrrd", {}, "empty.nrrd: the mask is empty");
   refused("full.nrrd", {}, "full");
   refused("specks.nrrd", {}, "specks");
+  refused("sponge.nrrd", {}, "--with median");
   refused("two.nrrd", {"--label", "9"}, "has no voxel of label 9; its labels are");
   refused("two.nrrd", {"--size-array", "edges"}, "--size-array", 2);
   EXPECT_EQ(ostia({"mesh", "two.nrrd", "-o", "none", "--source", "0,0,0"}, in).code, 2);

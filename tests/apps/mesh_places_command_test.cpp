@@ -134,7 +134,11 @@ TEST(MeshPlanes, ATableNamesTheEnds) {
   const double wanted = at > 6.0 ? 8.0 : 4.0;
   core::write_file(folder / "planes.csv",
                    "end,x,y,z,nx,ny,nz\n" + outlet + ",0,0," + std::to_string(wanted) + ",0,0,1\n");
-  ASSERT_EQ(ostia({"mesh", "tube.ply", "-o", "out", "--planes", "planes.csv"}, {folder, ""}).code, 0);
+  const Outcome cut =
+      ostia({"mesh", "tube.ply", "-o", "out", "--planes", "planes.csv", "--inset", "0.5"}, {folder, ""});
+  ASSERT_EQ(cut.code, 0) << cut.err;
+  EXPECT_THAT(cut.err, HasSubstr("does nothing at 1 of 2 ends"));
+  EXPECT_THAT(mesh_places_manifest(folder / "out")["warnings"].dump(), HasSubstr("--inset"));
   const auto [low, high] = z_range(io::read_volume_mesh(folder / "out" / "mesh.vtu"));
   EXPECT_NEAR(at > 6.0 ? high : low, wanted, 0.01);
   EXPECT_NEAR(at > 6.0 ? low : high, at > 6.0 ? 0.0 : mesh_places_length_mm, 0.05)

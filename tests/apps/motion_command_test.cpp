@@ -236,6 +236,9 @@ TEST(MotionCommand, TakesMasksAndFoldersOfASuiteCase) {
   const Outcome none = ostia({"motion", "fit", "case", "-o", "no", "--surface", "poisson"}, {folder, ""});
   EXPECT_EQ(none.code, 2);
   EXPECT_THAT(none.err, AllOf(HasSubstr("--surface poisson"), HasSubstr("no mask")));
+  const Outcome carried = ostia({"motion", "fit", "case", "-o", "no", "--by", "b-splines"}, {folder, ""});
+  EXPECT_EQ(carried.code, 2);
+  EXPECT_THAT(carried.err, AllOf(HasSubstr("--by"), HasSubstr("no template")));
 }
 
 TEST(MotionCommand, FramesAreCountedWhereThatIsSaid) {

@@ -47,10 +47,15 @@ class MadeCohort {
     record.seconds = 2.0;
     pipeline::write_manifest(folder, record);
   }
-  void make_all(std::size_t scan, const std::string& report) const {
+  void make_all(std::size_t scan, const std::string& report,
+                const std::string& pressure = made_pressure) const {
     for (std::size_t i = 0; i < stages.size(); ++i)
-      make(scan, i, i + 1 == stages.size() ? report : stages[i].name);
+      make(scan, i,
+           i == stage_of("measures")   ? report
+           : i == stage_of("pressure") ? pressure
+                                       : stages[i].name);
   }
+  static constexpr const char* made_pressure = R"({"v":1,"kind":"ffr","outlets":[]})";
   /// The workflow's record of a stage that ended without a result.
   void record(std::size_t scan, std::size_t stage, const std::string& code, const std::string& signal,
               const std::string& message) const {

@@ -19,26 +19,30 @@ constexpr const char* report = R"json({"v":1,"kind":"case report",
  "segments":[{"label":"pLAD (6)","least_area_mm2":2.25,"worst_percent":null}],
  "stenoses":[{"number":1,"diameter_percent":70.5,"plaque":{"plaque_mm3":12.125},"cad_rads":4}]})json";
 
+constexpr const char* pressure = R"({"v":1,"kind":"ffr","outlets":[{"name":"RCA","ffr":0.5},
+ {"name":"LAD","ffr":0.75}]})";
+
 TEST(MeasureTables, HaveARowAValueAndNoneForWhatIsNotKnown) {
   const MadeCohort cohort("measure_rows", 3);
-  cohort.make_all(0, report);
+  cohort.make_all(0, report, pressure);
   cohort.make_all(1, report);
   cohort.make(1, 0, "another");  // all that follows is no longer trusted
   const MeasureTableResult made = write_measure_table(cohort.folder(), cohort.beside("tables"));
   EXPECT_EQ(made.scans, 3u);
   EXPECT_EQ(made.measured, 1u);
-  EXPECT_EQ(made.values, 10u);
+  EXPECT_EQ(made.values, 12u);
   const std::string rows = core::read_file(cohort.beside("tables") / "measures.csv");
   EXPECT_THAT(rows, HasSubstr(",patient,1,,cad_rads,4A,\n"));
   EXPECT_THAT(rows, HasSubstr(",vessel,1,\"LAD, \"\"mid\"\"\",length_mm,101.5,mm\n"));
   EXPECT_THAT(rows, HasSubstr(",segment,1,pLAD (6),least_area_mm2,2.25,mm2\n"));
   EXPECT_THAT(rows, HasSubstr(",stenosis,1,S1,plaque_mm3,12.125,mm3\n"));
+  EXPECT_THAT(rows, HasSubstr(",outlet,2,LAD,ffr,0.75,1\n"));
   EXPECT_THAT(rows, Not(HasSubstr("worst_percent")));
   EXPECT_THAT(rows, Not(HasSubstr(cohort.scan(1))));
   const std::string scans = core::read_file(cohort.beside("tables") / "scans.csv");
   EXPECT_THAT(scans, HasSubstr(cohort.scan(0)));
-  EXPECT_THAT(scans, HasSubstr(",mask,ok,stale,waiting,waiting,waiting\n"));
-  EXPECT_THAT(scans, HasSubstr(",mask,waiting,waiting,waiting,waiting,waiting\n"));
+  EXPECT_THAT(scans, HasSubstr(",mask,ok,stale,waiting,waiting,waiting,waiting\n"));
+  EXPECT_THAT(scans, HasSubstr(",mask,waiting,waiting,waiting,waiting,waiting,waiting\n"));
 }
 
 TEST(MeasureTables, SqliteHoldsTheSameAndTheDictionaryNamesEveryMeasure) {

@@ -35,6 +35,7 @@ TEST(CohortStatusRead, CountsEveryScanOnceAStage) {
   EXPECT_THAT(status.stages[1].scans, ElementsAre(1, 1, 1, 1, 0, 0));
   EXPECT_THAT(status.stages[2].scans, ElementsAre(3, 1, 0, 0, 0, 0));
   EXPECT_DOUBLE_EQ(status.stages[0].seconds, 6.0);
+  EXPECT_EQ(status.review.open, 2u);
   ASSERT_EQ(status.reasons.size(), 1u);
   EXPECT_EQ(status.reasons[0].stage, "extract");
   EXPECT_EQ(status.reasons[0].exit_code, 3);
@@ -91,7 +92,7 @@ TEST(CohortStatusRead, AResultOfAnotherResultIsStaleAndWhatFollowsWaits) {
   const CohortStatus status = read_status(cohort.folder());
   EXPECT_EQ(count(status, 0, StageState::ok), 1u);
   EXPECT_EQ(count(status, 1, StageState::stale), 1u);
-  for (const std::size_t later : {2u, 3u, 4u}) EXPECT_EQ(count(status, later, StageState::waiting), 1u);
+  for (const std::size_t later : {2u, 3u, 4u, 5u}) EXPECT_EQ(count(status, later, StageState::waiting), 1u);
 }
 
 TEST(CohortStatusRead, AChangedFileIsFoundWhereDigestsAreAskedFor) {

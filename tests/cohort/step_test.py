@@ -42,14 +42,24 @@ class Steps(unittest.TestCase):
             database.execute(f"INSERT INTO {table.split()[2].partition('(')[0]} VALUES({','.join('?' * len(row))})", row)
         database.close()
 
-    def words(self, script, stage="import", attempt=1):
+    def reviewed(self, *reviews):
+        """Of a case whose digest is "made"."""
+        (self.cohort / "cases" / SCAN).mkdir(parents=True, exist_ok=True)
+        (self.cohort / "cases" / SCAN / "manifest.json").write_text(json.dumps({"outputs": {"case.ostia": "made"}}))
+        with sqlite3.connect(self.cohort / "cohort.sqlite") as database:
+            database.execute("CREATE TABLE IF NOT EXISTS review(number INTEGER PRIMARY KEY, scan INTEGER, verdict TEXT, reader TEXT, time TEXT, made TEXT, result TEXT)")
+            for verdict, made in reviews:
+                database.execute("INSERT INTO review(scan, verdict, reader, time, made, result) VALUES(1, ?, 'R', 'now', ?, 'corrected')", (verdict, made))
+        database.close()
+
+    def words(self, script, stage="import", attempt=1, more=()):
         program = self.folder / "ostia"
         program.write_text("#!/bin/sh\n" + script)
         program.chmod(0o755)
-        return [sys.executable, "-B", STEP, self.cohort, SCAN, stage, "--ostia", program, "--attempt", str(attempt), "--most-attempts", "2"]
+        return [sys.executable, "-B", STEP, self.cohort, SCAN, stage, "--ostia", program, "--attempt", str(attempt), "--most-attempts", "2", *more]
 
-    def step(self, script, stage="import", attempt=1):
-        return subprocess.run(self.words(script, stage, attempt), cwd=self.folder, capture_output=True, text=True, timeout=60, check=False)
+    def step(self, script, stage="import", attempt=1, more=()):
+        return subprocess.run(self.words(script, stage, attempt, more), cwd=self.folder, capture_output=True, text=True, timeout=60, check=False)
 
     def record(self, stage="import"):
         file = self.cohort / "logs" / SCAN / f"{stage}.json"
@@ -84,6 +94,34 @@ class Steps(unittest.TestCase):
                 self.assertEqual(self.step(script).returncode, 0)
                 self.assertEqual((self.record()["exit_code"], self.record()["signal"]), (code, ended_by))
                 self.assertEqual(self.record()["input_sha256"], hashlib.sha256(b"voxels").hexdigest())
+
+    def test_what_takes_too_long_is_short_of_time(self):
+        slow = "exec sleep 60"
+        self.assertEqual(self.step(slow, more=("--seconds", "0.2")).returncode, 5)
+        self.assertIsNone(self.record())
+        self.assertEqual(self.step(slow, attempt=2, more=("--seconds", "0.2")).returncode, 0)
+        self.assertEqual((self.record()["exit_code"], self.record()["message"]), (5, "stopped: it took longer than 0.2 s"))
+
+    def test_what_follows_a_case_waits_for_a_persons_ok(self):
+        gate = ("--needs-review",)
+        self.assertEqual(self.step("exit 0", more=gate).returncode, 0)
+        self.assertEqual(self.step("exit 0", stage="extract", more=gate).returncode, 0)
+        for reviews in ((), (("again", "made"),), (("ok", "made of another"),), (("ok", "made"), ("again", "made")), (("none", "made"),)):
+            with self.subTest(reviews):
+                self.reviewed(*reviews)
+                self.assertEqual(self.step("exit 0", stage="lumen", more=gate).returncode, 1)
+                self.assertIsNone(self.record("lumen"))
+        self.reviewed(("ok", "made"))
+        self.assertEqual(self.step("exit 0", stage="lumen", more=gate).returncode, 0)
+        self.assertEqual(self.record("lumen")["exit_code"], 0)
+
+    def test_a_second_one_waits_until_the_first_is_done(self):
+        """Both write when they begin and end; between a beginning and its end there is nothing else."""
+        told = self.folder / "told"
+        words = self.words(f"echo begin >> '{told}'; sleep 0.3; echo end >> '{told}'")
+        both = [subprocess.Popen(words) for _ in range(2)]
+        self.assertEqual([one.wait(60) for one in both], [0, 0])
+        self.assertEqual(told.read_text().split(), ["begin", "end"] * 2)
 
     def test_what_has_no_result_before_it_is_left_out(self):
         self.step("exit 3")

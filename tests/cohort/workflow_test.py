@@ -4,12 +4,12 @@ and gone on with. Every scan ends whole or named, and both runs come to the same
 
 Usage: workflow_test.py OSTIA SOURCE
 """
+import hashlib
 import json
 import os
 import pathlib
 import shutil
 import signal
-import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -18,14 +18,13 @@ import unittest
 
 OSTIA, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 WORKFLOW = SOURCE / "apps/ostia/workflow"
-sys.path.insert(0, str(SOURCE / "tests/docs"))
+sys.path[:0] = [str(SOURCE / "tests/docs"), str(SOURCE / "tests/cohort")]
+import cohort_results  # noqa: E402
 import small_files  # noqa: E402
 
 if not shutil.which("snakemake"):
     print("skipped: needs snakemake")
     sys.exit(77)
-
-FOLDERS = ("inputs", "cases", "lumens", "meshes", "measures")
 
 
 def ostia(*words, codes=(0,)):
@@ -43,46 +42,17 @@ def status(cohort):
     return json.loads(ostia("cohort", "status", cohort, "--verify", "--json"))
 
 
-def content_of_case(file):
-    """All but when its steps were done."""
-    case = sqlite3.connect(file)
-    lines = [line for line in case.iterdump() if not line.startswith('INSERT INTO "step_stamp"')]
-    case.close()
-    return "\n".join(lines)
-
-
-def results(cohort):
-    """Of each scan, by its id, what was made: digests, and the content of cases. Manifests have times in them."""
-    sources = sqlite3.connect(f"{cohort}.private/sources.sqlite")
-    names = dict(sources.execute("SELECT pseudonym, id FROM source"))
-    sources.close()
-    found = {}
-    for folder in FOLDERS:
-        for manifest in sorted((cohort / folder).glob("*/manifest.json")):
-            outputs = json.loads(manifest.read_text())["outputs"]
-            found[names[manifest.parent.name], folder] = {
-                name: content_of_case(manifest.parent / name) if name.endswith(".ostia") else digest
-                for name, digest in outputs.items() if not name.endswith("manifest.json")}
-    return found
-
-
 class Workflow(unittest.TestCase):
     def setUp(self):
         holder = tempfile.TemporaryDirectory()
         self.addCleanup(holder.cleanup)
         self.folder = pathlib.Path(holder.name)
         small_files.write_mask(self.folder / "one's.nrrd")
-        for number, voxel in (("two", "0.55"), ("three", "0.6")):  # the same vessel, larger
-            self.grown(self.folder / f"{number}.nrrd", voxel)
+        for number, voxel in (("two", 0.55), ("three", 0.6)):  # the same vessel, larger
+            cohort_results.write_grown_mask(self.folder / f"{number}.nrrd", voxel)
         small_files.write_image(self.folder / "chestless.nrrd")
         (self.folder / "scans.csv").write_text("id,scan,kind\n1,one's.nrrd,mask\n2,two.nrrd,mask\n3,three.nrrd,mask\n4,chestless.nrrd,image\n")
         (self.folder / "work").mkdir()
-
-    def grown(self, path, spacing):
-        head, _, voxels = (self.folder / "one's.nrrd").read_bytes().partition(b"\n\n")
-        lines = [f"space directions: ({spacing},0,0) (0,{spacing},0) (0,0,{spacing})".encode() if line.startswith(b"space directions") else line
-                 for line in head.split(b"\n")]
-        path.write_bytes(b"\n".join(lines) + b"\n\n" + voxels)
 
     def cohort(self, name):
         ostia("cohort", "init", self.folder / "scans.csv", "-o", self.folder / name)
@@ -107,6 +77,31 @@ class Workflow(unittest.TestCase):
         os.killpg(running.pid, signal.SIGKILL)
         running.wait()
 
+    def test_what_follows_a_case_waits_for_a_person_and_is_made_of_what_that_person_corrected(self):
+        (self.folder / "one.csv").write_text("id,scan,kind\n1,one's.nrrd,mask\n")
+        cohort = self.folder / "gated"
+        ostia("cohort", "init", self.folder / "one.csv", "-o", cohort)
+
+        def go_on():
+            done = subprocess.run(snakemake(cohort, "needs_review=true", "--cores", "2"), capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr[-3000:])
+            return done.stdout + done.stderr, {stage["stage"]: stage["ok"] + stage["quality"] for stage in status(cohort)["stages"]}
+        said, done = go_on()
+        self.assertIn("1 scans wait for a person's OK", said)
+        self.assertEqual((done["extract"], done["lumen"], done["pressure"]), (1, 0, 0))
+        case = next((cohort / "cases").glob("p-*/case.ostia"))
+        made = json.loads((case.parent / "manifest.json").read_text())["outputs"]["case.ostia"]
+        for signed in ("A", "B"):  # each changes the case, as a correction does
+            (self.folder / "words.txt").write_text(f"as {signed} sees it")
+            ostia("report", case, "-o", self.folder / f"report{signed}", "--impression", self.folder / "words.txt", "--sign", signed, "--date", "2026-03-01", "--change", "checked", codes=(0, 4))
+            review = {"scan": case.parent.name, "verdict": "ok", "reader": signed, "time": "2026-03-01T12:00:00Z", "made": made}
+            (self.folder / "reviews.json").write_text(json.dumps({"v": 1, "kind": "cohort reviews", "reviews": [review]}))
+            ostia("cohort", "review", cohort, self.folder / "reviews.json")
+            _, done = go_on()
+            self.assertEqual(set(done.values()), {1}, done)
+            of_lumen = json.loads(next((cohort / "lumens").glob("p-*/manifest.json")).read_text())["inputs"]
+            self.assertEqual(list(of_lumen.values()), [hashlib.sha256(case.read_bytes()).hexdigest()])
+
     def test_killed_and_gone_on_with_it_comes_to_the_same(self):
         whole = self.cohort("whole")
         self.finish(whole)
@@ -118,9 +113,9 @@ class Workflow(unittest.TestCase):
             told = status(cohort)
             self.assertEqual((told["scans"], told["whole"]), (4, 3), told)
             self.assertEqual([(one["stage"], one["exit_code"], one["scans"]) for one in told["reasons"]], [("extract", 3, 1)])
-            self.assertEqual([p for folder in FOLDERS for p in (cohort / folder).iterdir() if ".part-" in p.name], [])
-        expected, found = results(whole), results(killed)
-        self.assertEqual(len(expected), 3 * 5 + 1)
+            self.assertEqual(cohort_results.half_made(cohort), [])
+        expected, found = cohort_results.results(whole), cohort_results.results(killed)
+        self.assertEqual(len(expected), 3 * 6 + 1)
         self.assertEqual(found.keys(), expected.keys())
         for key, digests in expected.items():
             self.assertEqual(found[key], digests, key)

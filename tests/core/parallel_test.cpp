@@ -1,5 +1,6 @@
 #include "ostia/core/parallel.h"
 
+#include "ostia/core/job.h"
 #include "ostia/core/parallel_invoke.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <latch>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -114,6 +116,50 @@ TEST_F(Parallel, AThreadOfLowPriorityLeavesTheOthersTheirs) {
   EXPECT_GT(lowered, own);
   EXPECT_EQ(inherited, lowered);
   EXPECT_EQ(niceness(), own);
+}
+
+TEST_F(Parallel, LoopsOfAThreadOfLowPriorityAreDoneByOthersOfLowPriority) {
+  set_max_threads(3);
+  const double sum = harmonic_sum();
+  std::thread([&] {
+    lower_thread_priority();
+    const int low = getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
+    const Job job;
+    const JobHere here(&job);
+    std::mutex mutex;
+    std::set<int> priorities;
+    std::set<const Job*> jobs;
+    std::vector<int> visits(3 * 50, 0);
+    std::latch all_there(3);  // three at a time, or it would wait for ever
+    parallel_for(3, 1, [&](std::size_t i) {
+      all_there.arrive_and_wait();
+      parallel_for(50, 4, [&](std::size_t k) {
+        ++visits[50 * i + k];
+        const std::lock_guard lock(mutex);
+        priorities.insert(getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())));
+        jobs.insert(current_job());
+      });
+    });
+    EXPECT_EQ(visits, std::vector<int>(3 * 50, 1));
+    EXPECT_EQ(priorities, std::set<int>{low});
+    EXPECT_EQ(jobs, std::set<const Job*>{&job});
+    EXPECT_EQ(harmonic_sum(), sum) << "to the bit";
+    int done = 0;
+    EXPECT_THROW(parallel_for(1000, 1,
+                              [&](std::size_t i) {
+                                if (i == 3) throw std::runtime_error("the fourth");
+                                const std::lock_guard lock(mutex);
+                                ++done;
+                              }),
+                 std::runtime_error);
+    EXPECT_LT(done, 1000);
+    parallel_for(1000, 1, [&](std::size_t) {
+      const std::lock_guard lock(mutex);
+      ++done;
+    });
+    EXPECT_GE(done, 1000) << "after a failure they go on";
+  }).join();
+  EXPECT_EQ(harmonic_sum(), sum);
 }
 
 }  // namespace

@@ -167,6 +167,9 @@ TABLE = (
     ("trial.csv", "", shown("docs/methods/compare.md", "trial.csv")),
     ("scans.csv", "", shown("docs/tutorials/cohort.md", "scans.csv")),
     ("study", "", begun_cohort),
+    ("release-1", "", begun_cohort),
+    ("release-2", "", begun_cohort),
+    ("reviews.json", "", text('{"v":1,"kind":"cohort reviews","reviews":[]}\n')),
     ("patients.csv", "", shown("docs/reference/pipelines.md", "patients.csv")),
 )
 

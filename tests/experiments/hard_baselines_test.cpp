@@ -1,5 +1,5 @@
-#include "baseline_growing.h"
-#include "baseline_path.h"
+#include "hard/baseline_growing.h"
+#include "hard/baseline_path.h"
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/polyline.h"

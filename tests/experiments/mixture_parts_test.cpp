@@ -1,7 +1,7 @@
-#include "gauss_sum.h"
-#include "kernel_deformation.h"
-#include "lbfgs.h"
-#include "mixture_distance.h"
+#include "motion/gauss_sum.h"
+#include "motion/kernel_deformation.h"
+#include "motion/lbfgs.h"
+#include "motion/mixture_distance.h"
 
 #include "ostia/core/error.h"
 

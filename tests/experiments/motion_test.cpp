@@ -1,6 +1,6 @@
 #include "ostia/experiments/motion.h"
 
-#include "motion_branches.h"
+#include "motion/motion_branches.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"

@@ -1,7 +1,7 @@
 // The model against the three-dimensional runs that are kept with the source (data/pressure): what a change
 // of the model does to them is seen without OpenFOAM.
 
-#include "pressure_keep.h"
+#include "pressure/pressure_keep.h"
 
 #include "ostia/core/parallel.h"
 #include "ostia/experiments/pressure.h"

@@ -1,7 +1,7 @@
 // A real patient's tree as a case of the pressure experiment.
 
-#include "pressure_compare.h"
-#include "pressure_patients.h"
+#include "pressure/pressure_compare.h"
+#include "pressure/pressure_patients.h"
 #include "shared_data.h"
 
 #include "ostia/core/error.h"

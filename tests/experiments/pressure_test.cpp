@@ -2,8 +2,8 @@
 
 #include "ostia/experiments/pressure.h"
 
-#include "pressure_compare.h"
-#include "pressure_keep.h"
+#include "pressure/pressure_compare.h"
+#include "pressure/pressure_keep.h"
 #include "shared_data.h"
 
 #include "ostia/core/error.h"

@@ -1,8 +1,8 @@
 #include "ostia/experiments/smoothness.h"
 
 #include "experiment_schema.h"
+#include "lumen/vtk_filters.h"
 #include "shared_data.h"
-#include "vtk_filters.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"

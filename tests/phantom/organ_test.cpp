@@ -1,4 +1,4 @@
-#include "../../libs/phantom/src/organ.h"
+#include "../../libs/phantom/src/body/organ.h"
 
 #include "ostia/phantom/noise.h"
 

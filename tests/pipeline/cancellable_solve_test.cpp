@@ -1,4 +1,4 @@
-#include "cancellable_solve.h"
+#include "images/cancellable_solve.h"
 
 #include "ostia/core/error.h"
 

@@ -68,11 +68,17 @@ TEST(Model, VolumeIsThatOfItsSurface) {
 TEST(Model, OpenTubeGoesFromItsEndToItsEnd) {
   ModelOptions options;
   options.sizing.edge_ratio = 0.25;  // chords of a quarter of the radius take 1 % from a circle's area
+  options.inset_radii = 2.0;         // flat open ends stay where they are, which is told
   const Model model = build_model(
       surface_source(geometry::surface_of(geometry::straight_tube(20.0, 2.0), 0.4, true)), options);
   EXPECT_TRUE(model.meshed.quality.verdict.ok()) << model.meshed.quality.verdict.summary();
   EXPECT_NEAR(model.meshed.quality.volume.volume_mm3(), std::numbers::pi * 4.0 * 20.0,
               0.02 * std::numbers::pi * 80.0);
+  EXPECT_EQ(std::ranges::count_if(model.warnings,
+                                  [](const std::string& line) {
+                                    return line.find("does nothing at 2 of 2 ends") != std::string::npos;
+                                  }),
+            1);
 }
 
 /// A tube of 20 mm, radius 2 mm, with layers as given.

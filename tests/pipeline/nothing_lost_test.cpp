@@ -107,6 +107,23 @@ TEST(NothingLost, ALabelThatIsNoCapIsNamedWithItsPlace) {
   EXPECT_EQ(taken.lost[0].name, "LAD");
 }
 
+TEST(NothingLost, PartsMayNumberTheirCapsAlike) {
+  const FacedSurface one = coned(small_y(), 0.0);
+  TriMesh beside = one.mesh;
+  for (Vec3& p : beside.points) p += Vec3(0.0, 40.0, 0.0);
+  FacedSurface two{geometry::merged(one.mesh, beside), one.face_ids, {}};
+  two.face_ids.insert(two.face_ids.end(), one.face_ids.begin(), one.face_ids.end());
+  const TakenSurface taken = take_surface(two, "two");
+  EXPECT_EQ(taken.ends.size(), 6u);
+  EXPECT_FALSE(says(taken.told, "has no end after mending"));
+  EXPECT_TRUE(taken.lost.empty());
+  two.mesh.points.back() += 2.0 * Vec3(two.mesh.points.back() - Vec3(0.0, 40.0, 0.0)).normalized();
+  const TakenSurface steep = take_surface(two, "steep");
+  EXPECT_EQ(steep.ends.size(), 5u);
+  ASSERT_EQ(steep.lost.size(), 1u) << "the cap of that part alone, told once";
+  EXPECT_GT(steep.lost[0].centre.y(), 20.0);
+}
+
 /// Caps as one polygon each, split as readers do, and as fans about a corner, as they were split.
 TEST(NothingLost, CapsOfPolygonsAreNoSpikes) {
   for (const bool fan : {false, true}) {

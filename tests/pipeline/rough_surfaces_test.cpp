@@ -1,8 +1,8 @@
 // Walls as rough as noise makes them, and walls of some thickness: what comes of them is a lumen.
 
-#include "intake_units.h"
+#include "intake/intake_units.h"
+#include "motion/unfolding.h"
 #include "thick_walls.h"
-#include "unfolding.h"
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/aabb_tree.h"

@@ -71,6 +71,12 @@ def test_a_program_that_is_not_there(tmp_path, monkeypatch):
         commands.centerline("a.stl", output="b.vtp")
 
 
+def test_a_flag_that_also_takes_a_value():
+    ffr = commands._Command(next(one for one in leaves(described()) if one["words"][-1] == "ffr"), [])
+    said = [ffr.arguments(("a.csv",), {"uncertainty": value})[2:] for value in (True, 64, False, None)]
+    assert said == [["--uncertainty"], ["--uncertainty=64"], [], []]
+
+
 def test_words():
     assert commands._text((1, 2.5, -3)) == "1,2.5,-3"
     assert commands._text([(1, 2, 3), (4, 5, 6)]) == "1,2,3:4,5,6"

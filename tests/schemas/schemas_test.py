@@ -553,6 +553,14 @@ class Schemas(Refusing):
             subprocess.run([sys.executable, "-B", step, at / "study", scan, stage, "--ostia", PROGRAM], check=True, timeout=100)
             validator("cohort-step").validate(json.loads((at / "study" / "logs" / scan / f"{stage}.json").read_text()))
         self.assertEqual(holds("cohort-status", "cohort", "status", at / "study")["stages"][0]["ok"], 1)
+        self.assertEqual(holds("cohort-page", "cohort", "page", at / "study")["scans"], 1)
+        made = json.loads((at / "study/cases" / scan / "manifest.json").read_text())["outputs"]["case.ostia"]
+        reviews = {"v": 1, "kind": "cohort reviews", "reviews": [{"scan": scan, "verdict": "ok", "reader": "R", "time": "2026-03-01T12:00:00Z", "made": made}]}
+        validator("cohort-reviews").validate(reviews)
+        (at / "reviews.json").write_text(json.dumps(reviews))
+        self.assertEqual(holds("cohort-review", "cohort", "review", at / "study", at / "reviews.json")["ok"], 1)
+        holds("cohort-init", "cohort", "init", at / "scans.csv", "-o", at / "later", "--skip-bad", codes=(4,))
+        self.assertEqual(holds("cohort-compare", "cohort", "compare", at / "study", at / "later", "-o", at / "changes")["matched"], 0)
         self.assertEqual(holds("cohort-table", "cohort", "table", at / "study", "-o", at / "tables")["scans"], 1)
         validator("manifest").validate(json.loads((at / "tables" / "manifest.json").read_text()))
 

@@ -1,4 +1,4 @@
-#include "case_open.h"
+#include "case_file/case_open.h"
 #include "case_tools.h"
 
 #include "ostia/core/error.h"

@@ -1,6 +1,6 @@
 // The report in German: nothing of it that a person reads is left in English.
 
-#include "case_report_words.h"
+#include "report/case_report_words.h"
 #include "report_cases.h"
 
 #include "ostia/core/error.h"

@@ -1,6 +1,6 @@
 // Cases of older versions of the format, opened by this one.
 
-#include "case_schema.h"
+#include "case_file/case_schema.h"
 #include "case_tools.h"
 
 #include "ostia/core/error.h"

@@ -22,12 +22,12 @@ struct LesionTable : ::testing::Test {
   EvaluabilityBoard evaluability{bench};
   LesionBoard board{bench, evaluability};
   imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
+  const ImageReference reference_{std::string(64, 'a'), "case-aaaa"};
 
   void open(bool with_image = true) {
-    const ImageReference reference{std::string(64, 'a'), "case-aaaa"};
-    bench.set_session(
-        Session(CaseFile::create(folder / "a.ostia", narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6), reference)));
-    if (with_image) bench.set_image({std::make_shared<const imaging::ImageVolume>(image), reference});
+    bench.set_session(Session(
+        CaseFile::create(folder / "a.ostia", narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6), reference_)));
+    if (with_image) bench.set_image({std::make_shared<const imaging::ImageVolume>(image), reference_});
   }
   std::int32_t vessel() { return bench.model()->tree.vessels.front().id; }
   void find_all() {
@@ -180,6 +180,59 @@ TEST_F(LesionTable, AWordHoldsAfterAnEditAndThePlaqueIsFoundAnew) {
   EXPECT_FALSE(board.take(*work, work->found())) << "of another model";
   find_all();
   EXPECT_EQ(board.missing(), 0);
+}
+
+TEST_F(LesionTable, OfOneVesselAllStandsWhileAnotherGoesAndComesBack) {
+  bench.set_session(Session(CaseFile::create(folder / "a.ostia", narrowed_y(1, 12.0, 0.6), reference_)));
+  bench.set_image({std::make_shared<const imaging::ImageVolume>(image), reference_});
+  const std::int32_t lad = vessel(), lcx = bench.model()->tree.vessels.back().id;
+  for (const std::int32_t one : {lad, lcx}) bench.profile(one);
+  // What is found of their walls is no matter here: that it is kept is.
+  while (const auto work = board.work()) {
+    ASSERT_TRUE(board.take(*work, analysis::PlaqueProfile()));
+  }
+  while (const auto work = evaluability.work()) {
+    EvaluabilityWork::Found found;
+    found.vessel.stretches = {{0.0, 40.0, analysis::Evaluability::limited, {}, false}};
+    ASSERT_TRUE(evaluability.take(*work, found));
+  }
+  const auto narrow = [&]() -> std::optional<LesionRow> {
+    for (const LesionRow& row : board.rows())
+      if (row.vessel == lad && row.lesion.narrows) return row;
+    return std::nullopt;
+  };
+  ASSERT_TRUE(narrow());
+  board.say(*narrow(), LesionState::accepted, "tight");
+  evaluability.judge(lad, 0.0, 10.0, analysis::Evaluability::evaluable);
+  const auto stands = [&](const char* when) {
+    const std::optional<LesionRow> row = narrow();
+    ASSERT_TRUE(row) << when;
+    EXPECT_EQ(row->state, LesionState::accepted) << when;
+    EXPECT_EQ(row->comment, "tight") << when;
+    const auto stretches = evaluability.stretches(lad);
+    ASSERT_EQ(stretches.size(), 2U) << when;
+    EXPECT_TRUE(stretches[0].by_person) << when;
+    EXPECT_EQ(stretches[1].grade, analysis::Evaluability::limited) << when;
+  };
+  stands("before");
+  bench.edit(lumen::VesselRename{lcx, "OM1"});
+  EXPECT_EQ(board.missing(), 0) << "another name is nothing to be looked at";
+  bench.edit(lumen::BranchDelete{lcx});
+  stands("deleted");
+  EXPECT_EQ(board.missing(), 1) << "what lies beside it is other than it was";
+  EXPECT_TRUE(evaluability.stretches(lcx).empty());
+  ASSERT_TRUE(bench.undo());
+  stands("undone");
+  EXPECT_EQ(board.missing(), 2);
+  ASSERT_TRUE(bench.redo());
+  stands("done again");
+  // At other abscissas nothing that was found can stand.
+  bench.edit(lumen::AxisTrim{lad, 32.0});
+  bench.profile(lad);
+  ASSERT_TRUE(narrow());
+  EXPECT_EQ(narrow()->state, LesionState::accepted);
+  EXPECT_EQ(evaluability.stretches(lad).size(), 2U);
+  EXPECT_EQ(evaluability.stretches(lad)[1].grade, analysis::Evaluability::not_evaluable) << "not known";
 }
 
 TEST_F(LesionTable, AWorkCanBeCancelledAndAVesselWithoutAWallIsNotTriedAgain) {

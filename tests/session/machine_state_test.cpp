@@ -1,7 +1,7 @@
 #include "ostia/session/machine_state.h"
 
+#include "case_file/machine_file.h"
 #include "case_tools.h"
-#include "machine_file.h"
 
 #include "ostia/core/error.h"
 #include "ostia/session/image_digest.h"

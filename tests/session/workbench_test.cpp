@@ -1,6 +1,6 @@
 #include "ostia/session/workbench.h"
 
-#include "case_tools.h"
+#include "report_cases.h"
 
 #include "ostia/core/error.h"
 
@@ -152,6 +152,46 @@ TEST_F(Table, ADeletedVesselIsNoLongerSelected) {
   EXPECT_TRUE(bench.axis());
   ASSERT_TRUE(bench.undo());
   EXPECT_TRUE(bench.axis(last));
+}
+
+TEST_F(Table, AfterVesselsCameOrWentAllIsAsMeasuredFromNothing) {
+  bench.set_session(Session(CaseFile::create(folder / "a.ostia", narrowed_y(1, 12.0, 0.5))));
+  const std::int32_t lad = bench.model()->tree.vessels.front().id,
+                     lcx = bench.model()->tree.vessels.back().id;
+  const auto is_as_from_nothing = [&](const std::string& after) {
+    Workbench fresh;
+    const std::filesystem::path file = folder / (after + ".ostia");
+    const lumen::LumenModel now = *bench.model();
+    fresh.set_session(Session(CaseFile::create(file, now)));
+    for (const geometry::Vessel& one : now.tree.vessels) {
+      const analysis::LumenProfile &kept = *bench.profile(one.id), &anew = *fresh.profile(one.id);
+      ASSERT_EQ(kept.sections.size(), anew.sections.size()) << after;
+      for (std::size_t i = 0; i < anew.sections.size(); ++i)
+        EXPECT_NEAR(kept.sections[i].diameter_mm, anew.sections[i].diameter_mm, 1e-3)
+            << after << ", " << one.name << " at " << anew.sections[i].s_mm;
+      const auto& line = bench.reference(one.id)->diameter_mm;
+      const auto& line_anew = fresh.reference(one.id)->diameter_mm;
+      ASSERT_EQ(line.size(), line_anew.size()) << after;
+      for (std::size_t i = 0; i < line.size(); ++i)
+        EXPECT_NEAR(line[i], line_anew[i], 1e-3) << after << ", " << one.name;
+      EXPECT_EQ(bench.stenoses(one.id).size(), fresh.stenoses(one.id).size()) << after << ", " << one.name;
+    }
+  };
+  for (const std::int32_t one : {lad, lcx}) bench.profile(one);
+  bench.edit(lumen::VesselRename{lcx, "OM1"});
+  EXPECT_FALSE(bench.profile_work(lad)) << "another name is nothing to be measured";
+  is_as_from_nothing("renamed");
+  bench.edit(lumen::BranchDelete{lcx});
+  EXPECT_FALSE(bench.profile_work(lad)) << "it runs as before";
+  is_as_from_nothing("deleted");
+  ASSERT_TRUE(bench.undo());
+  EXPECT_FALSE(bench.profile_work(lad));
+  EXPECT_TRUE(bench.profile_work(lcx)) << "it was not there";
+  is_as_from_nothing("undone");
+  bench.edit(lumen::BranchSplit{lad, 22.0, "D1"});
+  is_as_from_nothing("split");
+  ASSERT_TRUE(bench.undo());
+  is_as_from_nothing("joined again");
 }
 
 TEST_F(Table, WhatIsRefusedChangesNothing) {

@@ -1,7 +1,7 @@
 #include "ostia/view/scene_pointer.h"
 
 #include "bench_case.h"
-#include "section_places.h"
+#include "pictures/section_places.h"
 #include "shown_scene.h"
 
 #include "ostia/core/error.h"

@@ -161,6 +161,35 @@ std::shared_ptr<const geometry::TriMesh> bumped(const geometry::TriMesh& wall, c
   return result;
 }
 
+TEST(TreeSceneGui, AWallOfAnotherTimeIsSeenAboutThisOneAndNotPicked) {
+  const Tree tree = testing::straight_tree();
+  ShownScene shown;
+  shown.scene.set_wall(tree.wall, tree.model);
+  shown.scene.set_pose(from_front());
+  const Shot alone = shown.shoot();
+  geometry::TriMesh wider = *tree.wall;  // by half, about the axis
+  for (Vec3& point : wider.points) point = {1.5 * point.x(), 1.5 * point.y(), point.z()};
+  shown.scene.set_other_wall(std::make_shared<const geometry::TriMesh>(wider));
+  const Shot both = shown.shoot();
+  const Vec2 beside = shown.scene.project({2.5, 0.0, 20.0}), beyond = shown.scene.project({3.5, 0.0, 20.0});
+  EXPECT_LT(alone.at(beside).difference(alone.background()), 5);
+  EXPECT_GT(both.at(beside).difference(both.background()), 40);
+  EXPECT_LT(both.at(beyond).difference(both.background()), 5);
+  EXPECT_FALSE(shown.scene.pick(beside));
+  // Half transparent: this wall shines through, and a picture that is saved has both.
+  const Vec2 middle = shown.scene.project({0.0, 0.0, 20.0});
+  EXPECT_GT(both.at(middle).difference(both.at(beside)), 20);
+  const figure::Raster saved = shown.scene.snapshot(400, 300);
+  const std::size_t at =
+      4 * (static_cast<std::size_t>(299 - beside.y()) * 400 + static_cast<std::size_t>(beside.x()));
+  EXPECT_NEAR(saved.rgba[at + 2], both.at(beside).b, 12);
+  shown.scene.set_other_wall(nullptr);
+  EXPECT_LT(shown.shoot().at(beside).difference(alone.at(beside)), 5);
+  geometry::TriMesh broken = wider;
+  broken.triangles.front()[0] = -1;
+  EXPECT_THROW(shown.scene.set_other_wall(std::make_shared<const geometry::TriMesh>(broken)), InvalidInput);
+}
+
 TEST(TreeSceneGui, AnUpdateOfTheWallChangesItThereAlone) {
   const Tree tree = testing::straight_tree();
   ShownScene shown;

@@ -1,4 +1,4 @@
-#include "wall_change.h"
+#include "scene/wall_change.h"
 
 #include "vessel_trees.h"
 

@@ -1,4 +1,4 @@
-#include "wall_cut.h"
+#include "scene/wall_cut.h"
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 #include "measuring/reporting.h"
 #include "tube_window.h"
 #include "views/picture_widget.h"
+#include "views/scene_widget.h"
 
 #include "ostia/core/files.h"
 #include "ostia/session/report_digest.h"
@@ -173,6 +174,28 @@ TEST_F(ComparisonWindow, OneCursorGoesThroughBothScansWhicheverIsMoved) {
   EXPECT_NEAR(test->bench().cursor_mm.get(), 10.0, 0.1);
   QTest::keyClick(along, Qt::Key_Right);
   EXPECT_NEAR(test->bench().cursor_mm.get(), 10.5, 0.1);
+}
+
+TEST_F(ComparisonWindow, TheFormerWallStandsOutWhereTheVesselWasWider) {
+  compare();
+  view::TreeScene& scene = window().scene().scene();
+  scene.set_pose(view::pose_from(view::ViewFrom::anterior, {0.0, 0.0, testing::throat_mm}, 10.0));
+  // Between the throat's wall, half as wide as before, and the former one.
+  const auto blue = [&] {
+    const figure::Raster shot = scene.snapshot(400, 400);
+    const std::size_t x = 200 + static_cast<std::size_t>(0.8 * testing::tube_radius_mm * 20.0);
+    const std::size_t at = 4 * (200 * 400 + x);
+    return shot.rgba[at + 2] - shot.rgba[at];
+  };
+  EXPECT_LT(blue(), 15);
+  part<QAction>("compare.in_3d")->trigger();
+  settle();
+  EXPECT_TRUE(window().centralWidget()->isVisible()) << "the views are there again";
+  EXPECT_GT(blue(), 20);
+  part<QAction>("compare.close")->trigger();
+  settle();
+  EXPECT_FALSE(part<QAction>("compare.in_3d")->isChecked());
+  EXPECT_LT(blue(), 15);
 }
 
 TEST_F(ComparisonWindow, NoCaseIsChangedAndAnEditMakesTheComparisonOld) {

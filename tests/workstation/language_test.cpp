@@ -1,6 +1,6 @@
 #include "shell/language.h"
 
-#include "case_report_words.h"
+#include "report/case_report_words.h"
 #include "shell/library_texts.h"
 
 #include "ostia/core/phrasebook.h"

@@ -1,8 +1,12 @@
 // Vessels by hand in the window: the sample's right coronary deleted and put back by clicks, and a case's
 // first vessel taken back and deleted.
 
+#include "measuring/lesion_list.h"
+#include "measuring/lesion_texts.h"
+#include "measuring/lesions.h"
 #include "sample_patient.h"
 #include "tube_case.h"
+#include "vessels/evaluability.h"
 #include "vessels/list.h"
 #include "views/scene_widget.h"
 #include "window_hand.h"
@@ -15,6 +19,8 @@
 #include <gtest/gtest.h>
 
 #include <QAction>
+#include <QApplication>
+#include <QLineEdit>
 #include <QTest>
 #include <algorithm>
 #include <cstdint>
@@ -126,6 +132,77 @@ TEST_F(SampleWindow, TheRightCoronaryComesBackByThreeClicksAsItWas) {
   RecordProperty("p90_um", static_cast<int>(1000.0 * off[off.size() * 9 / 10]));
   EXPECT_LE(off[off.size() / 2], 0.05);
   EXPECT_LE(off[off.size() * 9 / 10], 0.05) << "largest " << off.back();
+}
+
+TEST_F(SampleWindow, TheReadersWordOnOneVesselStandsWhileAnotherGoesAndComesBack) {
+  session::Workbench& bench = test.bench();
+  auto* rows = test.window().findChild<LesionList*>("lesions");
+  const auto key = [&](Qt::Key which, Qt::KeyboardModifiers with = Qt::NoModifier) {
+    QApplication::setActiveWindow(&test.window());  // keys reach commands of the active window alone
+    test.picture("cpr1").setFocus();
+    QTest::keyClick(test.window().windowHandle(), which, with);
+    QApplication::processEvents();
+    EXPECT_TRUE(wait_until([&] { return rows->settled(); }));
+  };
+  const std::int32_t rca = named(bench, "RCA");
+  const auto axis = lumen::vessel(*bench.model(), rca).axis;
+  const Vec3 ostium = axis->point(1.0), end = axis->point(axis->length() - 1.0);
+  // Some lesion of another vessel, of which all is known that the program finds by itself.
+  const auto is_wanted = [&](const std::optional<session::LesionRow>& row) {
+    return row && row->vessel != rca && row->lesion.plaque && row->evaluable;
+  };
+  const auto is_there = [&] {
+    const auto& known = test.window().lesions().board().rows();
+    return std::any_of(known.begin(), known.end(), is_wanted);
+  };
+  ASSERT_TRUE(wait_until(is_there, 120000));
+  for (int i = 0; i <= rows->topLevelItemCount() && !is_wanted(rows->at_cursor()); ++i) key(Qt::Key_L);
+  ASSERT_TRUE(is_wanted(rows->at_cursor()));
+  key(Qt::Key_1, Qt::ControlModifier);  // evaluable, by the reader
+  key(Qt::Key_Y);
+  key(Qt::Key_K, Qt::ShiftModifier);
+  auto* editor = rows->findChild<QLineEdit*>();
+  ASSERT_TRUE(editor);
+  QTest::keyClicks(editor, "tight");
+  QTest::keyClick(editor, Qt::Key_Return);
+  const auto stands = [&](const char* when) {
+    for (int i = 0; i < rows->topLevelItemCount(); ++i) {
+      const QTreeWidgetItem& row = *rows->topLevelItem(i);
+      if (!row.text(comment_column).startsWith("tight")) continue;
+      EXPECT_EQ(row.text(state_column), "accepted") << when;
+      EXPECT_EQ(row.text(evaluable_column), "evaluable (reader)") << when;
+      EXPECT_NE(row.text(plaque_column), "?") << when << ": what was found of it is gone";
+      return;
+    }
+    ADD_FAILURE() << when << ": the lesion is not in the table";
+  };
+  ASSERT_TRUE(wait_until([&] {
+    const auto row = rows->at_cursor();
+    return row && row->comment == "tight" && rows->settled();
+  }));
+  stands("said");
+  auto* list = test.window().findChild<VesselList*>("vessels");
+  for (int i = 0; i < list->topLevelItemCount(); ++i)
+    if (list->topLevelItem(i)->text(0) == "RCA") list->setCurrentItem(list->topLevelItem(i));
+  QTest::keyClick(list, Qt::Key_Delete);
+  ASSERT_EQ(named(bench, "RCA"), session::Workbench::no_vessel);
+  ASSERT_TRUE(wait_until([&] { return rows->settled(); }));
+  stands("the other deleted");
+  test.window().findChild<QAction*>("tool.add_artery")->trigger();
+  click_at(test, ostium);
+  click_at(test, end);
+  ASSERT_TRUE(wait_until([&] { return !test.window().jobs().any(); }, 120000));
+  ASSERT_NE(named(bench, "RCA"), session::Workbench::no_vessel);
+  ASSERT_TRUE(wait_until([&] { return rows->settled(); }));
+  stands("put back");
+  const auto steps = bench.session().file().edits().size();
+  key(Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_EQ(named(bench, "RCA"), session::Workbench::no_vessel);
+  stands("undone");
+  key(Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(wait_until([&] { return named(bench, "RCA") != session::Workbench::no_vessel; }))
+      << steps << " steps were " << bench.session().file().edits().size();
+  stands("undone twice");
 }
 
 TEST_F(SampleWindow, ThePlaneIn3DAndTheListFollowTheVesselChosenAtOnce) {

@@ -179,7 +179,7 @@ void Stage::enter(const std::string& state) {
                                            "manual", "keys",   "complaint",   "failure"};
   if (!without_case.count(state)) open_case();
   ways.at(state)();
-  if (!wait_until([&] { return !window_->jobs().any(); }, 60000))
+  if (!wait_until([&] { return !window_->jobs().any(); }, 240000))
     throw std::runtime_error(state + ": the window does not get there");
   window_->statusBar()->clearMessage();
 }

@@ -3,6 +3,7 @@
 
 #include "commands.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 
@@ -33,10 +34,41 @@ struct CohortTableCommand {
 };
 ExitCode run_cohort_table(const CohortTableCommand& options, const core::TaskContext& task);
 
+struct CohortPageCommand {
+  std::filesystem::path cohort;
+  bool json = false;
+};
+ExitCode run_cohort_page(const CohortPageCommand& options, const core::TaskContext& task);
+
+struct CohortServeCommand {
+  std::filesystem::path cohort;
+  std::uint16_t port = 0;
+  bool json = false;
+};
+/// Until it is interrupted, which is its ordinary end.
+ExitCode run_cohort_serve(const CohortServeCommand& options, const core::TaskContext& task);
+
+struct CohortReviewCommand {
+  std::filesystem::path cohort, file;
+  bool json = false;
+};
+/// quality_failed where a reviewed case is not there, or was made anew since.
+ExitCode run_cohort_review(const CohortReviewCommand& options, const core::TaskContext& task);
+
+struct CohortCompareCommand {
+  std::filesystem::path before, after, output;
+  bool json = false;
+};
+ExitCode run_cohort_compare(const CohortCompareCommand& options, const core::TaskContext& task);
+
 struct CohortCommands {
   CohortInitCommand init;
   CohortStatusCommand status;
   CohortTableCommand table;
+  CohortPageCommand page;
+  CohortReviewCommand review;
+  CohortServeCommand serve;
+  CohortCompareCommand compare;
 };
 
 /// Adds `cohort` with its subcommands.

@@ -4,8 +4,13 @@
 #include "output/told.h"
 
 #include "ostia/cohort/cohort.h"
+#include "ostia/cohort/cohort_comparison.h"
 #include "ostia/cohort/measure_table.h"
+#include "ostia/cohort/page.h"
+#include "ostia/cohort/page_server.h"
+#include "ostia/cohort/review.h"
 #include "ostia/cohort/status.h"
+#include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/core/text.h"
 
@@ -14,6 +19,7 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
+#include <cstdio>
 
 namespace ostia::app {
 namespace {
@@ -57,6 +63,8 @@ std::string text_of_status(const cohort::CohortStatus& status) {
     text += "\n" + padded_cell(stage.stage, width);
     for (const std::size_t count : stage.scans) text += padded_cell(std::to_string(count), width);
   }
+  text += "\nreviewed: " + std::to_string(status.review.ok) + " OK, " + std::to_string(status.review.again) +
+          " to be looked at again, " + std::to_string(status.review.open) + " not yet";
   for (std::size_t i = 0; i < std::min(most_reasons_shown, status.reasons.size()); ++i) {
     const cohort::FailureReason& one = status.reasons[i];
     text += "\n" + one.stage + ", exit code " + std::to_string(one.exit_code) + ", " +
@@ -83,11 +91,13 @@ ToldJson json_of_status(const cohort::CohortStatus& status) {
                        {"reason", one.reason},
                        {"scans", one.scans},
                        {"example", one.example}});
-  return {{"scans", status.scans},
-          {"refused", status.refused},
-          {"whole", status.whole},
-          {"stages", std::move(stages)},
-          {"reasons", std::move(reasons)}};
+  return {
+      {"scans", status.scans},
+      {"refused", status.refused},
+      {"whole", status.whole},
+      {"review", {{"ok", status.review.ok}, {"again", status.review.again}, {"open", status.review.open}}},
+      {"stages", std::move(stages)},
+      {"reasons", std::move(reasons)}};
 }
 
 }  // namespace
@@ -126,6 +136,79 @@ ExitCode run_cohort_table(const CohortTableCommand& c, const core::TaskContext& 
        c.json);
   task.set_progress(1.0);
   return ExitCode::ok;
+}
+
+ExitCode run_cohort_page(const CohortPageCommand& c, const core::TaskContext& task) {
+  const cohort::PageResult result = cohort::write_page(c.cohort, task);
+  tell("cohort page", {{"scans", result.scans}, {"files", result.files}, {"page", "page/index.html"}},
+       counted(result.scans, "scan") + "; open " + result.page.string() + " in a browser", c.json);
+  task.set_progress(1.0);
+  return ExitCode::ok;
+}
+
+ExitCode run_cohort_serve(const CohortServeCommand& c, const core::TaskContext& task) {
+  cohort::write_page(c.cohort, task);
+  cohort::PageServer server(c.cohort, c.port);
+  tell("cohort serve", {{"url", server.url()}},
+       server.url() + "\nis for you alone: who knows it may write reviews. Ctrl+C ends it", c.json);
+  std::fflush(stdout);  // who started it waits for the address
+  task.set_progress(1.0);
+  server.run(task);
+  return ExitCode::ok;
+}
+
+ExitCode run_cohort_compare(const CohortCompareCommand& c, const core::TaskContext& task) {
+  const cohort::CohortComparison found = cohort::compare_cohorts(c.before, c.after, c.output, task);
+  ToldJson measures = ToldJson::array(), states = ToldJson::array();
+  for (const cohort::MeasureAgreement& one : found.measures)
+    measures.push_back({{"measure", one.measure},
+                        {"unit", one.unit},
+                        {"scans", one.scans},
+                        {"changed", one.changed},
+                        {"lost", one.lost},
+                        {"gained", one.gained},
+                        {"bias", one.bias},
+                        {"sd", one.sd},
+                        {"lower_limit", one.lower_limit},
+                        {"upper_limit", one.upper_limit},
+                        {"greatest", one.greatest}});
+  for (const cohort::StateChange& one : found.states)
+    states.push_back(
+        {{"stage", one.stage}, {"before", one.before}, {"after", one.after}, {"scans", one.scans}});
+  tell("cohort compare",
+       {{"before", found.before},
+        {"after", found.after},
+        {"matched", found.matched},
+        {"ambiguous", found.ambiguous},
+        {"changed", found.changed},
+        {"measures", std::move(measures)},
+        {"states", std::move(states)}},
+       std::to_string(found.changed) + " of " + counted(found.matched, "scan") +
+           " changed that are in both; index.html shows those that changed most",
+       c.json);
+  task.set_progress(1.0);
+  return ExitCode::ok;
+}
+
+ExitCode run_cohort_review(const CohortReviewCommand& c, const core::TaskContext& task) {
+  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
+  const auto reviews = cohort::parse_reviews(core::read_file(c.file, most_bytes), c.file.string());
+  const cohort::TakenReviews taken = cohort::take_reviews(c.cohort, reviews, task);
+  ToldJson left_out = ToldJson::array();
+  std::string text;
+  for (const std::string& scan : taken.left_out) {
+    left_out.push_back(scan);
+    text += scan + ": left out, its case is not there or was made anew since; look at it again\n";
+  }
+  tell("cohort review",
+       {{"ok", taken.ok},
+        {"again", taken.again},
+        {"taken_back", taken.taken_back},
+        {"left_out", std::move(left_out)}},
+       text + std::to_string(taken.ok) + " OK, " + std::to_string(taken.again) + " to be looked at again, " +
+           std::to_string(taken.taken_back) + " taken back",
+       c.json);
+  return taken.left_out.empty() ? ExitCode::ok : ExitCode::quality_failed;
 }
 
 namespace {
@@ -182,6 +265,31 @@ void define_cohort(CLI::App& app, CohortCommands& c, CohortRun& run) {
       ->add_option("-o,--output", c.table.output,
                    "Folder that is made: scans.csv, measures.csv, dictionary.csv, measures.sqlite")
       ->required();
+
+  CLI::App* page = add_cohort(*cohort, "page", "A page for a browser: counts, failures, pictures, reviews",
+                              "ostia cohort page study", c.page, run_cohort_page, run);
+  page->add_option("COHORT", c.page.cohort, "Folder of the cohort; its folder page is made")->required();
+
+  CLI::App* serve =
+      add_cohort(*cohort, "serve", "That page on this machine's loopback, which writes reviews itself",
+                 "ostia cohort serve study", c.serve, run_cohort_serve, run);
+  serve->add_option("COHORT", c.serve.cohort, "Folder of the cohort; its page is made anew")->required();
+  serve->add_option("--port", c.serve.port, "Port of 127.0.0.1; 0: one that is free");
+
+  CLI::App* compare =
+      add_cohort(*cohort, "compare", "The same scans in two cohorts: what changed for whom",
+                 "ostia cohort compare release-1 release-2 -o changes", c.compare, run_cohort_compare, run);
+  compare->add_option("BEFORE", c.compare.before, "Folder of a cohort")->required();
+  compare->add_option("AFTER", c.compare.after, "Folder of another one, of the same scans")->required();
+  compare
+      ->add_option("-o,--output", c.compare.output, "Folder that is made: index.html, changes.csv, pictures")
+      ->required();
+
+  CLI::App* review =
+      add_cohort(*cohort, "review", "What a person said of the cases on that page, taken into the cohort",
+                 "ostia cohort review study reviews.json", c.review, run_cohort_review, run);
+  review->add_option("COHORT", c.review.cohort, "Folder of the cohort")->required();
+  review->add_option("FILE", c.review.file, "Reviews that the page exported")->required();
 }
 
 }  // namespace ostia::app

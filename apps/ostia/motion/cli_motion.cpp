@@ -66,6 +66,10 @@ void add_fit(CLI::App& motion, MotionFitCommand& c, MotionRun& run) {
   fit->add_option("--method", c.method,
                   "How a phase is registered: gauss-newton, or gradient-descent, slow, to compare with")
       ->check(CLI::IsMember({"gauss-newton", "gradient-descent"}));
+  fit->add_option("--by", c.by,
+                  "What carries the template through images, before its wall is looked for: cage, or "
+                  "b-splines, ITK's, by all of the image about it")
+      ->check(CLI::IsMember({"cage", "b-splines"}));
   fit->add_option("--surface", c.surface,
                   "How masks get their surface: isosurface, or poisson, smoother, through that one's points")
       ->check(CLI::IsMember({"isosurface", "poisson"}));

@@ -52,6 +52,7 @@ pipeline::JobKey job_of(const MotionFitCommand& c, const pipeline::MotionFitOpti
                         {"method", c.method},
                         {"frames", c.frames},
                         {"surface", c.surface},
+                        {"by", c.by},
                         {"units", c.units}};
   pipeline::JobKey key{"motion fit", {}, parameters.dump()};
   for (const PhaseFile& one : files)
@@ -83,6 +84,13 @@ struct Phases {
   std::vector<std::string> warnings;
 };
 
+/// It would change nothing.
+void require_images(const MotionFitCommand& c, const std::vector<PhaseFile>& files) {
+  if (c.by == "cage" || (!c.shape.empty() && are_images(files))) return;
+  throw UsageError("--by says what carries a --template through images; " +
+                   std::string(c.shape.empty() ? "no template was given" : "the phases are none"));
+}
+
 Phases phases_of(const MotionFitCommand& c, const pipeline::MotionFitOptions& options,
                  const std::vector<PhaseFile>& files, const core::TaskContext& task) {
   const bool images = !c.shape.empty() && are_images(files);
@@ -94,6 +102,7 @@ Phases phases_of(const MotionFitCommand& c, const pipeline::MotionFitOptions& op
     return phases;
   }
   pipeline::ImagePhasesOptions how;
+  if (c.by == "b-splines") how.carrier = pipeline::ImageCarrier::b_splines;
   how.template_phase = options.template_phase;
   how.depth = options.registration.depth;
   how.margin = options.registration.margin;
@@ -139,6 +148,7 @@ ExitCode run_motion_fit(const MotionFitCommand& c, const core::TaskContext& task
   const std::vector<PhaseFile> files =
       phase_files(c.input, c.frames, c.shape.empty() ? PhaseContent::surfaces : PhaseContent::images, task);
   require_mask(c, files);
+  require_images(c, files);
   const pipeline::JobKey key = job_of(c, options, files, task);
   std::optional<ExitCode> code = pipeline::already_done(c.output, key);
   if (code) {

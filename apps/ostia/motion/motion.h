@@ -27,6 +27,7 @@ struct MotionFitCommand {
   std::vector<double> weights;          ///< of length, area and volume, or one of all; none: the library's
   std::string method = "gauss-newton";  ///< how a phase is registered
   std::string surface = "isosurface";   ///< of masks; or "poisson"
+  std::string by = "cage";              ///< what carries the template through images; or "b-splines"
   int frames = 0;                       ///< numbers in names count frames, this many a cycle; 0: percent
   std::string units;
   bool json = false;

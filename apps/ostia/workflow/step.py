@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 """One step of one scan of a cohort: an ordinary `ostia run`, and a record of how it ended.
 
-Usage: step.py COHORT PSEUDONYM STAGE [--ostia PROGRAM] [--private FOLDER] [--threads N] [--attempt N] [--most-attempts N]
+Usage: step.py COHORT PSEUDONYM STAGE [--ostia PROGRAM] [--private FOLDER] [--threads N] [--attempt N] [--most-attempts N] [--needs-review] [--seconds N]
 
 The result is a folder with a manifest, made whole or not at all by `ostia run`, which finds what is done already. The
 record is COHORT/logs/PSEUDONYM/STAGE.json (docs/schemas/cohort-step.schema.json). Exit codes 0, 3 and 4 of the command are results and
 end here with 0. Code 5 and SIGKILL (an operating system that is short of memory sends it) end with 5, so that the step is
-tried again with more, until the last attempt, which is recorded. So are 6 and other signals, with the input's digest. Where this
-script itself is stopped nothing is recorded, and the command is stopped with it.
+tried again with more, until the last attempt, which is recorded. So are 6 and other signals, with the input's digest. A command that
+takes longer than --seconds is stopped and is short of time, which is code 5, too. Where this script itself is stopped nothing is
+recorded, and the command is stopped with it. With --needs-review a stage behind the case waits for a person's OK: nothing is done
+or recorded without it, and the exit code is 1.
 """
 import argparse
 import ctypes
+import fcntl
 import hashlib
 import json
 import os
@@ -23,7 +26,8 @@ import time
 
 # stage: (folder, the stage before it)
 STAGES = {"import": ("inputs", None), "extract": ("cases", "import"), "lumen": ("lumens", "extract"), "mesh": ("meshes", "extract"),
-          "measures": ("measures", "extract")}
+          "measures": ("measures", "extract"), "pressure": ("flow", "extract")}
+REVIEWED = "extract"  # its result is what a person says OK to
 BY_KIND = {"import", "extract", "measures"}
 RESULTS, SHORTAGE = (0, 3, 4), 5
 
@@ -67,12 +71,41 @@ def source_of(private, pseudonym):
     return pathlib.Path(row[0]), row[1], row[2]
 
 
-def kind_of(cohort, pseudonym):
+def asked_of(cohort, query, *values):
     database = sqlite3.connect((cohort / "cohort.sqlite").resolve().as_uri() + "?mode=ro", uri=True)
     try:
-        return database.execute("SELECT kind FROM scan WHERE pseudonym = ?", (pseudonym,)).fetchone()[0]
+        return database.execute(query, values).fetchall()
     finally:
         database.close()
+
+
+def kind_of(cohort, pseudonym):
+    return asked_of(cohort, "SELECT kind FROM scan WHERE pseudonym = ?", pseudonym)[0][0]
+
+
+def manifest_of(cohort, stage, pseudonym):
+    """Nothing where there is none that can be read."""
+    try:
+        return json.loads((cohort / STAGES[stage][0] / pseudonym / "manifest.json").read_text())
+    except (OSError, ValueError):
+        return {}
+
+
+def is_made(cohort, pseudonym):
+    """There is a case."""
+    return "case.ostia" in manifest_of(cohort, REVIEWED, pseudonym).get("outputs", {})
+
+
+def approved_cases(cohort, pseudonym=None):
+    """By scan the digest of the case that a person called OK last, where the case that was reviewed is the one that is there."""
+    if not asked_of(cohort, "SELECT 1 FROM sqlite_master WHERE name = 'review'"):
+        return {}
+    only = "" if pseudonym is None else " WHERE s.pseudonym = ?"
+    rows = asked_of(cohort, "SELECT s.pseudonym, r.verdict, r.made, r.result FROM review r JOIN scan s ON s.number = r.scan" + only + " ORDER BY r.number",
+                    *([] if pseudonym is None else [pseudonym]))
+    last = {scan: (verdict, made, result) for scan, verdict, made, result in rows}
+    return {scan: result for scan, (verdict, made, result) in last.items()
+            if verdict == "ok" and manifest_of(cohort, REVIEWED, scan).get("outputs", {}).get("case.ostia") == made}
 
 
 def last_error(lines):
@@ -117,8 +150,17 @@ class Step:
         return name, {"case": case, "scan": image} if name == "measures-image" else {"case": case}, case
 
     def run(self):
+        """One at a time works at a step: what an engine that was killed has left running is waited for, and then found done."""
+        with open(self.record.with_suffix(".lock"), "w", encoding="utf-8") as lock:
+            fcntl.lockf(lock, fcntl.LOCK_EX)
+            return self.run_alone()
+
+    def run_alone(self):
         if not self.made_before():
             return self.keep(None, None, f"left out: {self.before} has no result", 0.0, None)
+        if self.told.needs_review and self.before == REVIEWED and self.told.pseudonym not in approved_cases(self.cohort, self.told.pseudonym):
+            print(f"step.py: {self.told.pseudonym} waits for a person's OK", file=sys.stderr)
+            return 1
         chain, variables, source = self.values()
         words = [self.told.ostia, "run", str(pathlib.Path(__file__).resolve().parent / "chains" / f"{chain}.json"),
                  "-o", str(self.cohort / self.folder / self.told.pseudonym), "--log", "json", "--progress", "none",
@@ -126,7 +168,9 @@ class Step:
         begun = time.monotonic()
         code, log = self.call(words)
         seconds = time.monotonic() - begun
-        ended_by = -code if code < 0 else None
+        ended_by = -code if code is not None and code < 0 else None
+        if code is None:
+            code, log = SHORTAGE, json.dumps({"level": "error", "message": f"stopped: it took longer than {self.told.seconds} s"})
         short = code == SHORTAGE or ended_by == signal.SIGKILL
         if short and self.told.attempt < self.told.most_attempts:
             return SHORTAGE
@@ -135,6 +179,7 @@ class Step:
         return self.keep(code if code >= 0 else None, ended_by, "" if code == 4 else message, seconds, digest_of(source) if failed_inside and source.exists() else None)
 
     def call(self, words):
+        """Exit code, or nothing where it took too long; and the log."""
         child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace", preexec_fn=die_with_parent)
 
         def stop(number, _):
@@ -143,10 +188,15 @@ class Step:
             os._exit(128 + number)
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             signal.signal(number, stop)
-        log = child.communicate()[1]
+        late = False
+        try:
+            log = child.communicate(timeout=self.told.seconds)[1]
+        except subprocess.TimeoutExpired:
+            child.kill()
+            late, log = True, child.communicate()[1]
         with open(self.record.with_suffix(".log"), "a", encoding="utf-8") as stream:
             stream.write(log)
-        return child.returncode, log
+        return None if late else child.returncode, log
 
     def keep(self, code, ended_by, message, seconds, digest):
         write_whole(self.record, json.dumps({"v": 1, "kind": "cohort step", "scan": self.told.pseudonym, "stage": self.told.stage, "exit_code": code,
@@ -165,6 +215,8 @@ def main():
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--attempt", type=int, default=1)
     parser.add_argument("--most-attempts", type=int, default=3)
+    parser.add_argument("--needs-review", action="store_true")
+    parser.add_argument("--seconds", type=float)
     told = parser.parse_args()
     told.cohort = told.cohort.absolute()
     if told.private is None:

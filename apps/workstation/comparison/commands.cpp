@@ -7,6 +7,7 @@
 #include "measuring/reporting.h"
 #include "shell/bind.h"
 #include "shell/desk.h"
+#include "views/scene_widget.h"
 
 #include <QSignalBlocker>
 
@@ -38,10 +39,20 @@ void bind_page(QAction& action, ComparisonPage& page) {
   });
 }
 
+/// Off again with another comparison, or none.
+void bind_former_wall(QAction& action, Comparing& comparing, ComparisonPage& page, SceneWidget& scene) {
+  action.setCheckable(true);
+  QObject::connect(&action, &QAction::toggled, &scene, [&comparing, &page, &scene](bool shown) {
+    scene.show_other_wall(shown ? comparing.former_wall() : nullptr);
+    if (shown) page.hide();  // it lies over the views
+  });
+  keep_with(&action, comparing.changed.observe([&action] { action.setChecked(false); }));
+}
+
 }  // namespace
 
 void add_comparison_commands(CommandTable& table, Desk& desk, Comparing& comparing, ComparisonPage& page,
-                             Reporting& reporting) {
+                             SceneWidget& scene, Reporting& reporting) {
   table.add(needs_case({.id = "file.compare",
                         .text = Command::tr("Compare with the last s&can\u2026"),
                         .tip = Command::tr("What has changed since the same patient's former case: lesions, "
@@ -79,6 +90,14 @@ void add_comparison_commands(CommandTable& table, Desk& desk, Comparing& compari
                                    .keys = {"Shift+I"},
                                    .run = [&page] { page.step_lesion(-1); }},
                                   comparing, page));
+  table.add(needs_comparison(
+      {.id = "compare.in_3d",
+       .text = Command::tr("&Former tree in the 3D view"),
+       .tip = Command::tr("The former wall, blue and half transparent, over the present one: where it stands "
+                          "out the vessel was wider."),
+       .bind = [&comparing, &page,
+                &scene](QAction& action) { bind_former_wall(action, comparing, page, scene); }},
+      comparing));
   table.add(needs_comparison({.id = "compare.again",
                               .text = Command::tr("&Compare again"),
                               .tip = Command::tr("With the case as it is now."),

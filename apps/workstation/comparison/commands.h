@@ -7,9 +7,10 @@ class CommandTable;
 class Comparing;
 class ComparisonPage;
 class Reporting;
+class SceneWidget;
 struct Desk;
 
 void add_comparison_commands(CommandTable& table, Desk& desk, Comparing& comparing, ComparisonPage& page,
-                             Reporting& reporting);
+                             SceneWidget& scene, Reporting& reporting);
 
 }  // namespace ostia::workstation

@@ -7,6 +7,7 @@
 #include "shell/library_texts.h"
 #include "shell/new_folder.h"
 #include "shell/two_patients.h"
+#include "views/scene_widget.h"
 
 #include "ostia/core/error.h"
 #include "ostia/figure/plot.h"
@@ -48,6 +49,12 @@ double place_in(const analysis::PlacedStretch& stretch, const std::vector<std::s
   return worst ? worst->throat_mm : 0.5 * (stretch.from_mm + stretch.to_mm);
 }
 
+std::shared_ptr<const geometry::TriMesh> carried_wall(geometry::TriMesh wall,
+                                                      const geometry::RigidFit& motion) {
+  for (geometry::Vec3& point : wall.points) point = motion(point);
+  return std::make_shared<const geometry::TriMesh>(std::move(wall));
+}
+
 }  // namespace
 
 /// What a job has found.
@@ -56,6 +63,7 @@ struct Comparing::Made {
   FormerImage image;
   std::string image_trouble;  ///< it could not be read: nothing was compared
   session::Comparison comparison;
+  std::shared_ptr<const geometry::TriMesh> former_wall;     ///< in the former scan
   std::shared_ptr<const session::Annotations> annotations;  ///< of the case on the table
   std::string now_digest;                                   ///< session::report_digest
 };
@@ -161,10 +169,12 @@ void Comparing::compare(const std::shared_ptr<const FormerCase>& former, const F
     known = desk_.machine.find_image(shown.reference.sha256);
   }
   // Measured once, however often it is compared.
-  const auto measured = shown_ && shown_->former == former ? made_ : nullptr;
+  const bool same_former = shown_ && shown_->former == former;
+  const auto measured = same_former ? made_ : nullptr;
+  const auto wall = same_former ? shown_->former_wall : nullptr;
   desk_.jobs.run(
       comparison_job, tr("Comparing the two scans"),
-      [former, image, now, known, measured,
+      [former, image, now, known, measured, wall,
        digest = session::report_digest(file)](const core::TaskContext& task) {
         auto found = std::make_shared<Made>();
         found->former = former;
@@ -179,7 +189,10 @@ void Comparing::compare(const std::shared_ptr<const FormerCase>& former, const F
           return std::any(found);
         }
         session::ComparedCase before =
-            measured ? measured->before : measured_former(*former, found->image, task.sub(0.2, 0.6));
+            measured ? measured->before : measured_former(*former, found->image, task.sub(0.2, 0.5));
+        found->former_wall = wall ? wall
+                                  : std::make_shared<const geometry::TriMesh>(former->session->live().wall(
+                                        SceneWidget::screen_cell_mm, task.sub(0.5, 0.6)));
         found->comparison = compared_now(std::move(before), now, known, task.sub(0.6, 1.0));
         return std::any(found);
       },
@@ -238,6 +251,7 @@ void Comparing::show(const std::shared_ptr<Made>& found) {
   shown_ = found;
   for (const analysis::ScannedVessel& vessel : made_->before.tree.vessels)
     if (const auto work = former_.profile_work(vessel.vessel)) former_.take_profile(*work, vessel.profile);
+  former_wall_ = carried_wall(*found->former_wall, made_->fit.motion);
   outdated.set(false);
   cursor_.set(made_);
   changed.tell();
@@ -248,6 +262,7 @@ void Comparing::close() {
   if (!shown_) return;
   cursor_.set(nullptr);
   made_.reset();
+  former_wall_.reset();
   shown_.reset();
   former_.close_case();
   former_.close_image();

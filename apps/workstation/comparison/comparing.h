@@ -3,6 +3,7 @@
 
 #include "comparison/one_cursor.h"
 
+#include "ostia/geometry/tri_mesh.h"
 #include "ostia/session/comparison.h"
 
 #include <QObject>
@@ -37,7 +38,10 @@ class Comparing final : public QObject {
   OneCursor& cursor() { return cursor_; }
   /// The case on the table has changed since.
   session::Property<bool> outdated{false};
-  session::Signal<> changed;    ///< there is another comparison, or none
+  session::Signal<> changed;  ///< there is another comparison, or none
+  /// The former tree's wall, carried to where it lies in the present scan by the map of the trees; null where
+  /// nothing is compared.
+  const std::shared_ptr<const geometry::TriMesh>& former_wall() const { return former_wall_; }
   QString former_name() const;  ///< by which views and pages call the former scan; nothing of the patient
   /// Why there is nothing to compare with, or no comparison; empty where there is.
   QString why_not_choose() const;
@@ -59,6 +63,7 @@ class Comparing final : public QObject {
   session::Workbench former_;
   OneCursor cursor_;
   std::shared_ptr<const session::Comparison> made_;
+  std::shared_ptr<const geometry::TriMesh> former_wall_;
   std::shared_ptr<const Made> shown_;  // what made_ is of
   std::vector<session::Subscription> own_;
 };

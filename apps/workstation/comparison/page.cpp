@@ -142,7 +142,7 @@ void ComparisonPage::add_buttons(const CommandTable& commands) {
   auto* grid = qobject_cast<QGridLayout*>(buttons_->layout());
   int number = 0;
   for (const char* id : {"compare.previous", "compare.next", "compare.blink", "compare.side", "compare.again",
-                         "compare.report", "compare.save", "compare.page"}) {
+                         "compare.report", "compare.save", "compare.in_3d", "compare.page"}) {
     grid->addWidget(command_button(commands, id), number / 2, number % 2);
     ++number;
   }

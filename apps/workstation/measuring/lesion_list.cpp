@@ -48,7 +48,7 @@ class OnlyComments final : public QStyledItemDelegate {
 }  // namespace
 
 LesionList::LesionList(session::Workbench& bench, Guard guard, QWidget* parent)
-    : QTreeWidget(parent), bench_(bench), guard_(std::move(guard)) {
+    : QTreeWidget(parent), bench_(bench), guard_(std::move(guard)), turns_(bench) {
   setObjectName("lesions");
   setAccessibleName(tr("Lesions"));
   setColumnCount(lesion_columns);
@@ -67,8 +67,15 @@ LesionList::LesionList(session::Workbench& bench, Guard guard, QWidget* parent)
   setColumnHidden(ffr_column, true);
   setMinimumSize(120, 40);
   soon_.setSingleShot(true);
-  soon_.setInterval(fill_lesions_after_ms);
-  connect(&soon_, &QTimer::timeout, this, &LesionList::fill);
+  connect(&soon_, &QTimer::timeout, this, [this] {
+    // A hand that pulls a wall is not kept waiting for what all vessels measure by now.
+    if (QGuiApplication::mouseButtons() != Qt::NoButton)
+      soon_.start(fill_lesions_after_ms);
+    else if (turns_.next())
+      soon_.start(0);
+    else
+      fill();
+  });
   own_.push_back(bench.vessel.observe([this](const std::int32_t&) { follow_cursor(); }));
   own_.push_back(bench.cursor_mm.observe([this](const double&) { follow_cursor(); }));
   connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
@@ -115,13 +122,17 @@ void LesionList::show_lesions(session::LesionBoard* board) {
   of_board_.clear();
   rows_.clear();
   if (!board) return;
-  of_board_.push_back(board->changed.observe([this] { soon_.start(); }));
+  of_board_.push_back(board->changed.observe([this] {
+    if (turns_.measuring()) return;
+    turns_.begin();
+    soon_.start(fill_lesions_after_ms);
+  }));
   of_board_.push_back(bench_.case_changed.observe([this] {
     const QScopedValueRollback<bool> filling(filling_, true);
     clear();  // a comment that is being typed is not for another case's lesion
     rows_.clear();
   }));
-  soon_.start();
+  soon_.start(fill_lesions_after_ms);
 }
 
 void LesionList::show_pressures(session::PressureBoard* board) {
@@ -163,7 +174,7 @@ void LesionList::show_ffr() {
 /// Written anew, but for the row that is being typed into; the chosen one stays chosen.
 void LesionList::fill() {
   if (!board_) return;
-  if (state() == EditingState) return soon_.start();
+  if (state() == EditingState) return soon_.start(fill_lesions_after_ms);
   const QScopedValueRollback<bool> filling(filling_, true);
   guard_([&] { rows_ = board_->rows(); });
   setSortingEnabled(false);
@@ -358,7 +369,7 @@ QString LesionList::as_text() const {
 
 void LesionList::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) {
   QTreeWidget::closeEditor(editor, hint);
-  soon_.start();  // what was not written while it was typed
+  soon_.start(fill_lesions_after_ms);  // what was not written while it was typed
 }
 
 void LesionList::keyPressEvent(QKeyEvent* event) {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file The table of lesions beside the profile.
 
+#include "vessels/measuring_turns.h"
 #include "views/picture_widget.h"
 
 #include "ostia/session/lesion_board.h"
@@ -70,6 +71,7 @@ class LesionList final : public QTreeWidget {
   std::vector<session::LesionRow> rows_;
   bool filling_ = false;
   QTimer soon_;
+  MeasuringTurns turns_;
   std::vector<session::Subscription> own_, of_board_, of_pressures_;
 };
 

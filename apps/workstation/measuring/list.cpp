@@ -56,7 +56,12 @@ MeasurementList::MeasurementList(session::Workbench& bench, Guard guard, QWidget
   own_.push_back(bench.model_changed.observe([this](const session::ModelEvent&) { soon_.start(); }));
   soon_.setSingleShot(true);
   soon_.setInterval(fill_measurements_after_ms);
-  connect(&soon_, &QTimer::timeout, this, &MeasurementList::fill);
+  connect(&soon_, &QTimer::timeout, this, [this] {
+    if (QGuiApplication::mouseButtons() != Qt::NoButton)
+      soon_.start();  // when the hand that pulls lets go
+    else
+      fill();
+  });
   own_.push_back(bench.annotations_changed.observe([this] { soon_.start(); }));
   own_.push_back(bench.image_changed.observe([this] { fill(); }));
   connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {

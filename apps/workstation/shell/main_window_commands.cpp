@@ -104,7 +104,7 @@ void MainWindow::build_commands() {
   add_calcium_commands(*commands_, desk_, *calcium_, *calcium_page_);
   calcium_page_->add_buttons(*commands_);
   add_fat_commands(*commands_, *fat_page_);
-  add_comparison_commands(*commands_, desk_, *comparing_, *comparison_page_, *reporting_);
+  add_comparison_commands(*commands_, desk_, *comparing_, *comparison_page_, panels_->scene(), *reporting_);
   comparison_page_->add_buttons(*commands_);
   add_phase_commands(*commands_, desk_, *beating_);
   add_series_commands(*commands_, desk_, *series_);

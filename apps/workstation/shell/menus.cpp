@@ -24,7 +24,7 @@ class MenuBuilder {
     fill(menu, {"file.sample", line, "file.compare"});
     fill(menu->addMenu(tr("Compared with the &last scan")),
          {"compare.page", "compare.again", line, "compare.previous", "compare.next", "compare.blink",
-          "compare.side", line, "compare.report", "compare.save", line, "compare.close"});
+          "compare.side", "compare.in_3d", line, "compare.report", "compare.save", line, "compare.close"});
     fill(menu, {line, "file.save_as", "file.close", line, "file.report_notes", "file.report", "file.pin"});
     fill(menu->addMenu(tr("&Export")),
          {"file.export_surface", "file.export_mesh", "file.flow_case", "file.export_centerlines"});

@@ -3254,6 +3254,14 @@
         <translation>Beide Aufnahmen nebeneinander an der Stelle der Ansichten, und zurück.</translation>
     </message>
     <message>
+        <source>&amp;Former tree in the 3D view</source>
+        <translation>&amp;Früherer Baum in der 3D-Ansicht</translation>
+    </message>
+    <message>
+        <source>The former wall, blue and half transparent, over the present one: where it stands out the vessel was wider.</source>
+        <translation>Die frühere Wand, blau und halb durchsichtig, über der jetzigen: wo sie hervorsteht, war das Gefäß weiter.</translation>
+    </message>
+    <message>
         <source>&amp;Blink</source>
         <translation>&amp;Blinken</translation>
     </message>

@@ -55,7 +55,11 @@ int edited_samples(const lumen::VesselLumen& vessel) {
 
 VesselList::VesselList(session::Workbench& bench, std::function<QColor(std::int32_t)> color_of, Guard guard,
                        QWidget* parent)
-    : QTreeWidget(parent), bench_(bench), color_of_(std::move(color_of)), guard_(std::move(guard)) {
+    : QTreeWidget(parent),
+      bench_(bench),
+      color_of_(std::move(color_of)),
+      turns_(bench),
+      guard_(std::move(guard)) {
   setObjectName("vessels");
   setAccessibleName(tr("Vessels"));
   setColumnCount(vessel_columns);
@@ -84,17 +88,19 @@ VesselList::VesselList(session::Workbench& bench, std::function<QColor(std::int3
     if (event.tree_changed) return fill();
     unmeasured_.insert(unmeasured_.end(), failed_.begin(), failed_.end());
     failed_.clear();
-    soon_.start();
+    turns_.begin();
+    soon_.start(refresh_after_ms);
     measure_next();
   }));
   own_.push_back(bench.annotations_changed.observe([this] { refresh(); }));
   own_.push_back(bench.vessel.observe([this](const std::int32_t&) { refresh(); }));
   soon_.setSingleShot(true);
-  soon_.setInterval(refresh_after_ms);
   connect(&soon_, &QTimer::timeout, this, [this] {
     // Other vessels' narrowings can wait until the hand lets go.
     if (QGuiApplication::mouseButtons() != Qt::NoButton)
-      soon_.start();
+      soon_.start(refresh_after_ms);
+    else if (turns_.next())
+      soon_.start(0);
     else
       refresh();
   });
@@ -161,7 +167,7 @@ void VesselList::measure_next() {
     std::optional<session::ProfileWork> work = bench_.profile_work(unmeasured_.front());
     if (!work) {
       unmeasured_.erase(unmeasured_.begin());
-      soon_.start();
+      soon_.start(refresh_after_ms);
       continue;
     }
     measuring_ = true;
@@ -186,7 +192,7 @@ void VesselList::take(const session::ProfileWork& work,
   if (still && (!profile || bench_.take_profile(work, *profile))) {
     unmeasured_.erase(unmeasured_.begin());
     if (!profile) failed_.push_back(work.vessel);
-    soon_.start();
+    soon_.start(refresh_after_ms);
   }
   measure_next();
 }
@@ -316,7 +322,7 @@ void VesselList::resizeEvent(QResizeEvent* event) {
 /// What was not written while the name was typed.
 void VesselList::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) {
   QTreeWidget::closeEditor(editor, hint);
-  soon_.start();
+  soon_.start(refresh_after_ms);
 }
 
 void VesselList::edited(QTreeWidgetItem* item, int column) {

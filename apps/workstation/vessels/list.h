@@ -1,6 +1,7 @@
 #pragma once
 /// \file The vessels of the case: names, colours, what is shown, what is checked.
 
+#include "vessels/measuring_turns.h"
 #include "views/picture_widget.h"
 
 #include "ostia/analysis/aha_segments.h"
@@ -58,6 +59,7 @@ class VesselList final : public QTreeWidget {
   session::Workbench& bench_;
   std::function<QColor(std::int32_t)> color_of_;
   QTimer soon_;
+  MeasuringTurns turns_;
   std::vector<std::int32_t> unmeasured_;  // whose narrowings are still to be found, one at a time
   std::vector<std::int32_t> failed_;      // that could not be measured beside the window
   bool measuring_ = false;

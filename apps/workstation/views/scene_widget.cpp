@@ -291,6 +291,11 @@ void SceneWidget::show_guest(std::shared_ptr<view::SceneGuest> guest) {
   emit guest_changed(shown);
 }
 
+void SceneWidget::show_other_wall(std::shared_ptr<const geometry::TriMesh> wall) {
+  scene_->set_other_wall(std::move(wall));
+  request_render();
+}
+
 void SceneWidget::save_picture(const std::filesystem::path& png, double scale) {
   const double ratio = scene_->pixel_ratio();
   const auto pixels = [&](int size) { return static_cast<int>(std::lround(size * ratio * scale)); };

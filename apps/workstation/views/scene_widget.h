@@ -48,6 +48,8 @@ class SceneWidget final : public QWidget {
   void repaint_wall();  ///< the painter would colour it otherwise
   /// In the wall's place, all of it in the picture; null: the wall again.
   void show_guest(std::shared_ptr<view::SceneGuest> guest);
+  /// A wall of another time over this one (TreeScene::set_other_wall); null: none.
+  void show_other_wall(std::shared_ptr<const geometry::TriMesh> wall);
   /// What a press of the left button may take hold of; null: nothing. It has to outlive the events.
   void set_grip(SceneGrip* grip);
   SceneGrip* grip() const { return grip_; }

@@ -920,7 +920,8 @@ def fit_motion(
 ) -> MotionFit: ...
 def surfaces_from_images(
     surface: TriMesh, images: Union[Mapping[float, Volume], Sequence[tuple[float, Volume]]], *, progress: Progress = ...,
-    template_phase: float = ..., depth: int = ..., margin: float = ..., least_likeness: float = ...,
+    carrier: Literal["cage", "b_splines"] = ..., template_phase: float = ..., depth: int = ..., margin: float = ...,
+    least_likeness: float = ...,
 ) -> tuple[dict[float, Optional[TriMesh]], Figures]: ...
 def measure_motion(
     motion: Motion, tree: VesselTree, *, times: int = ..., progress: Progress = ..., rr_s: float = ..., reach_mm: float = ...,

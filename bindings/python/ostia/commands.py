@@ -86,10 +86,10 @@ class _Command:
         flag: str = option["names"][-1]
         if value is None:
             return []
-        if not option["value"]:
-            if not isinstance(value, bool):
-                raise errors.UsageError(f"{where}: True or False, not {value!r}")
+        if isinstance(value, bool) and not option["value"]:
             return [flag] if value else []
+        if not option["value"] and not option["flag_or_value"]:
+            raise errors.UsageError(f"{where}: True or False, not {value!r}")
         if isinstance(value, bool):
             raise errors.UsageError(f"{where}: a value, not {value!r}")
         if option["repeats"] and isinstance(value, (list, tuple)):

@@ -26,6 +26,7 @@ using motion::HyperelasticWeights;
 using motion::RegistrationOptions;
 using motion::RegistrationReport;
 using pipeline::CarriedQuality;
+using pipeline::ImageCarrier;
 using pipeline::ImagePhase;
 using pipeline::ImagePhasesOptions;
 using pipeline::MotionFitOptions;
@@ -39,12 +40,17 @@ struct WordsOf<MotionMethod> {
   static constexpr std::pair<const char*, MotionMethod> words[] = {
       {"gauss_newton", MotionMethod::gauss_newton}, {"gradient_descent", MotionMethod::gradient_descent}};
 };
+template <>
+struct WordsOf<ImageCarrier> {
+  static constexpr std::pair<const char*, ImageCarrier> words[] = {{"cage", ImageCarrier::cage},
+                                                                   {"b_splines", ImageCarrier::b_splines}};
+};
 OSTIA_OPTIONS(HyperelasticWeights, (length, area, volume), ())
 OSTIA_OPTIONS(RegistrationOptions,
               (depth, margin, max_angle_deg, energy, data_weight, most_rounds, most_points),
               (start))  // a neighbour's cage
 OSTIA_OPTIONS(MotionFitOptions, (method, registration, template_phase), ())
-OSTIA_OPTIONS(ImagePhasesOptions, (template_phase, depth, margin, least_likeness), ())
+OSTIA_OPTIONS(ImagePhasesOptions, (carrier, template_phase, depth, margin, least_likeness), ())
 OSTIA_OPTIONS(MotionMeasureOptions, (rr_s, reach_mm, least_curvature_per_mm, arm_mm, least_way_mm, rest_mm),
               ())
 OSTIA_FIGURES(RegistrationReport,

@@ -1,6 +1,6 @@
 #include "ostia/analysis/measurement.h"
 
-#include "ring_hu.h"
+#include "calcium/ring_hu.h"
 
 #include "ostia/analysis/stenosis.h"
 #include "ostia/core/error.h"

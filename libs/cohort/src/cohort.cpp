@@ -1,5 +1,6 @@
 #include "ostia/cohort/cohort.h"
 
+#include "stage_results.h"
 #include "store.h"
 
 #include "ostia/cohort/pseudonym.h"
@@ -45,6 +46,7 @@ class Writer {
         sources_(hidden / "sources.sqlite", Store::Mode::create) {
     for (const Store* one : {&cohort_, &sources_}) one->execute("BEGIN");
     cohort_.execute(cohort_schema);
+    cohort_.execute(later_tables);
     sources_.execute(private_schema);
   }
   std::size_t write(const ScanTable& table, const TableCheck& check, const core::TaskContext& task);

@@ -5,9 +5,11 @@
 namespace ostia::cohort {
 namespace {
 
-constexpr std::array levels_of_measures{
-    MeasureLevel{"patient", "", "", ""}, MeasureLevel{"vessel", "vessels", "/name", ""},
-    MeasureLevel{"segment", "segments", "/label", ""}, MeasureLevel{"stenosis", "stenoses", "/number", "S"}};
+constexpr std::array levels_of_measures{MeasureLevel{"measures", "patient", "", "", ""},
+                                        MeasureLevel{"measures", "vessel", "vessels", "/name", ""},
+                                        MeasureLevel{"measures", "segment", "segments", "/label", ""},
+                                        MeasureLevel{"measures", "stenosis", "stenoses", "/number", "S"},
+                                        MeasureLevel{"pressure", "outlet", "outlets", "/name", ""}};
 
 constexpr std::array fields_of_measures{
     MeasureField{"patient", "/cad_rads/category", "cad_rads", "",
@@ -46,7 +48,10 @@ constexpr std::array fields_of_measures{
     MeasureField{"stenosis", "/remodelling_index", "remodelling_index", "1",
                  "outer wall at the lesion against beside it"},
     MeasureField{"stenosis", "/cad_rads", "cad_rads", "", "its grade, where it is graded"},
-    MeasureField{"stenosis", "/checked", "checked", "", "true: a person has checked it"}};
+    MeasureField{"stenosis", "/checked", "checked", "", "true: a person has checked it"},
+    MeasureField{"outlet", "/ffr", "ffr", "1", "FFR at the vessel's end, computed from its form"},
+    MeasureField{"outlet", "/rest_ml_min", "rest_ml_min", "ml/min", "flow at rest"},
+    MeasureField{"outlet", "/hyperaemic_ml_min", "hyperaemic_ml_min", "ml/min", "flow under adenosine"}};
 
 constexpr std::array words_of_columns{
     ColumnWords{"scans", "scan", "pseudonym of the scan: a keyed hash of its id"},
@@ -59,14 +64,16 @@ constexpr std::array words_of_columns{
     ColumnWords{"scans", "lumen", "likewise"},
     ColumnWords{"scans", "mesh", "likewise"},
     ColumnWords{"scans", "measures", "likewise"},
+    ColumnWords{"scans", "pressure", "likewise"},
     ColumnWords{"measures", "scan", "as in scans"},
     ColumnWords{"measures", "patient", "as in scans"},
-    ColumnWords{"measures", "level", "what is measured: patient, vessel, segment, stenosis"},
-    ColumnWords{"measures", "entry", "which of them in the report, from 1"},
+    ColumnWords{"measures", "level",
+                "what is measured: patient, vessel, segment, stenosis, outlet (a vessel's end)"},
+    ColumnWords{"measures", "entry", "which of them in the result, from 1"},
     ColumnWords{"measures", "item", "its name: RCA, pRCA (1), S1; empty for the patient"},
     ColumnWords{"measures", "measure", "name of the measure, below"},
     ColumnWords{"measures", "value", "the value, in the unit; what is not known has no row"},
-    ColumnWords{"measures", "unit", "mm, mm2, mm3, %, 1 (a number), empty (a text)"}};
+    ColumnWords{"measures", "unit", "mm, mm2, mm3, %, ml/min, 1 (a number), empty (a text)"}};
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Which values of a case's report become rows of a cohort's table, and what they are.
+/// \file Which values of a scan's results become rows of a cohort's table, and what they are.
 
 #include <span>
 #include <string>
@@ -7,8 +7,8 @@
 namespace ostia::cohort {
 
 struct MeasureField {
-  const char* level;    ///< patient, vessel, segment, stenosis
-  const char* pointer;  ///< where it is: JSON pointer from the report, or from the entry of its level's list
+  const char* level;    ///< patient, vessel, segment, stenosis, outlet
+  const char* pointer;  ///< where it is: JSON pointer from the result, or from the entry of its level's list
   const char* measure;
   const char* unit;  ///< "1": a number without unit; "": a text
   const char* meaning;
@@ -16,8 +16,9 @@ struct MeasureField {
 std::span<const MeasureField> measure_fields();
 
 struct MeasureLevel {
+  const char* stage;  ///< whose result it is read from
   const char* level;
-  const char* list;  ///< member of the report; "": the report itself
+  const char* list;  ///< member of the result; "": the result itself
   const char* item;  ///< JSON pointer of what the entry is called
   const char* prefix;
 };

@@ -22,12 +22,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t measures_stage = stages.size() - 1;
-static_assert(std::string_view(stages[measures_stage].name) == "measures");
+constexpr std::size_t measures_stage = stage_of("measures"), pressure_stage = stage_of("pressure");
 
 constexpr const char* tables_schema = R"(
 CREATE TABLE scans(scan TEXT PRIMARY KEY, patient TEXT NOT NULL, kind TEXT NOT NULL, import TEXT NOT NULL,
-  extract TEXT NOT NULL, lumen TEXT NOT NULL, mesh TEXT NOT NULL, measures TEXT NOT NULL);
+  extract TEXT NOT NULL, lumen TEXT NOT NULL, mesh TEXT NOT NULL, measures TEXT NOT NULL, pressure TEXT NOT NULL);
 CREATE TABLE measures(scan TEXT NOT NULL, patient TEXT NOT NULL, level TEXT NOT NULL, entry INTEGER NOT NULL,
   item TEXT NOT NULL, measure TEXT NOT NULL, value, unit TEXT NOT NULL);
 CREATE TABLE dictionary("table" TEXT NOT NULL, "column" TEXT NOT NULL, level TEXT NOT NULL, measure TEXT NOT NULL,
@@ -54,19 +53,19 @@ class Tables {
  public:
   explicit Tables(const fs::path& folder)
       : scans_(folder / "scans.csv",
-               {"scan", "patient", "kind", "import", "extract", "lumen", "mesh", "measures"}),
+               {"scan", "patient", "kind", "import", "extract", "lumen", "mesh", "measures", "pressure"}),
         measures_(folder / "measures.csv",
                   {"scan", "patient", "level", "entry", "item", "measure", "value", "unit"}),
         dictionary_(folder / "dictionary.csv", {"table", "column", "level", "measure", "unit", "meaning"}),
         store_(folder / "measures.sqlite", Store::Mode::create) {
     store_.execute("BEGIN");
     store_.execute(tables_schema);
-    put_scan_.emplace(store_, "INSERT INTO scans VALUES(?, ?, ?, ?, ?, ?, ?, ?)");
+    put_scan_.emplace(store_, "INSERT INTO scans VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)");
     put_measure_.emplace(store_, "INSERT INTO measures VALUES(?, ?, ?, ?, ?, ?, ?, ?)");
     write_dictionary();
   }
   void take_scan(const CohortScan& scan);
-  void take_report(const CohortScan& scan, const json& report);
+  void take_result(const CohortScan& scan, const char* stage, const json& result);
   std::size_t close();
 
  private:
@@ -93,8 +92,11 @@ void Tables::write_dictionary() {
 
 void Tables::take_scan(const CohortScan& scan) {
   const auto state = [&](std::size_t stage) { return name_of(scan.results[stage].state); };
-  scans_.add({scan.pseudonym, scan.patient, scan.kind, state(0), state(1), state(2), state(3), state(4)});
-  put_scan_->with(scan.pseudonym, scan.patient, scan.kind, state(0), state(1), state(2), state(3), state(4))
+  scans_.add(
+      {scan.pseudonym, scan.patient, scan.kind, state(0), state(1), state(2), state(3), state(4), state(5)});
+  put_scan_
+      ->with(scan.pseudonym, scan.patient, scan.kind, state(0), state(1), state(2), state(3), state(4),
+             state(5))
       .step();
 }
 
@@ -130,8 +132,9 @@ void Tables::take_entry(const CohortScan& scan, const MeasureLevel& level, std::
   }
 }
 
-void Tables::take_report(const CohortScan& scan, const json& report) {
+void Tables::take_result(const CohortScan& scan, const char* stage, const json& report) {
   for (const MeasureLevel& level : measure_levels()) {
+    if (std::string_view(level.stage) != stage) continue;
     if (std::string_view(level.list).empty()) {
       take_entry(scan, level, 1, report);
       continue;
@@ -150,15 +153,14 @@ std::size_t Tables::close() {
   return values_;
 }
 
-json report_of(const fs::path& file) {
+json result_of(const fs::path& file, const char* kind) {
   try {
-    json report = json::parse(core::read_file(file));
-    if (report.value("v", 0) == 1 && report.value("kind", "") == "case report") return report;
+    json result = json::parse(core::read_file(file));
+    if (result.value("v", 0) == 1 && result.value("kind", "") == kind) return result;
   } catch (const json::exception&) {
     // Below.
   }
-  throw InvalidInput("cannot use " + file.string() +
-                     ": it is no report of a case, though its manifest names it");
+  throw InvalidInput("cannot use " + file.string() + ": it is no " + kind + ", though its manifest names it");
 }
 
 }  // namespace
@@ -176,12 +178,16 @@ MeasureTableResult write_measure_table(const fs::path& folder, const fs::path& o
     cohort.for_each({}, task, [&](const CohortScan& scan) {
       ++out.scans;
       tables.take_scan(scan);
-      const StageResult& result = scan.results[measures_stage];
-      if (!is_done(result.state)) return;
-      ++out.measured;
-      made_of = core::sha256(made_of + scan.pseudonym + result.result);
-      const Stage& stage = stages[measures_stage];
-      tables.take_report(scan, report_of(folder / stage.folder / scan.pseudonym / stage.result));
+      for (const auto& [number, kind] :
+           {std::pair{measures_stage, "case report"}, std::pair{pressure_stage, "ffr"}}) {
+        const StageResult& result = scan.results[number];
+        if (!is_done(result.state)) continue;
+        out.measured += number == measures_stage;
+        made_of = core::sha256(made_of + scan.pseudonym + result.result);
+        const Stage& stage = stages[number];
+        tables.take_result(scan, stage.name,
+                           result_of(folder / stage.folder / scan.pseudonym / stage.result, kind));
+      }
     });
     out.values = tables.close();
   }

@@ -41,7 +41,9 @@ bool as_recorded(const fs::path& file, const std::string& digest, bool verify) {
 }
 
 /// What `ostia run` left: its manifest is written last.
-StageResult result_of_manifest(const fs::path& folder, const Stage& stage, bool verify) {
+/// `accepted`: a digest of the stage's result that a person has answered for.
+StageResult result_of_manifest(const fs::path& folder, const Stage& stage, bool verify,
+                               const std::string& accepted) {
   StageResult out;
   out.state = StageState::damaged;
   try {
@@ -54,7 +56,9 @@ StageResult result_of_manifest(const fs::path& folder, const Stage& stage, bool 
     const json& outputs = manifest.at("outputs");
     out.result = outputs.at(stage.result).get<std::string>();
     for (const auto& [name, digest] : outputs.items())
-      if (!as_recorded(folder / name, digest.get<std::string>(), verify)) return out;
+      if (!as_recorded(folder / name, digest.get<std::string>(), verify) &&
+          (name != stage.result || accepted.empty() || !as_recorded(folder / name, accepted, verify)))
+        return out;
     out.state = out.exit_code == static_cast<int>(ExitCode::ok) ? StageState::ok : StageState::quality;
   } catch (const json::exception&) {
     // No manifest of ours: what lies there is not to be trusted.
@@ -90,14 +94,39 @@ StageResult result_of_record(const fs::path& file) {
   return out;
 }
 
+/// What a folder holds, by name. Asking the system for a million names that are not there, one by one, takes
+/// minutes; to list those that are takes a moment.
+class ListedFolder {
+ public:
+  explicit ListedFolder(const fs::path& folder) {
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+      names_.push_back(hash_of(entry->path().filename().native()));
+    std::ranges::sort(names_);
+  }
+  /// False: it is not there. True: it is worth a look.
+  bool may_have(const std::string& name) const { return std::ranges::binary_search(names_, hash_of(name)); }
+
+ private:
+  static std::size_t hash_of(std::string_view name) { return std::hash<std::string_view>()(name); }
+  std::vector<std::size_t> names_;
+};
+
+/// Where there may be something.
+struct Places {
+  bool result = true, record = true;
+};
+
 StageResult result_now(const fs::path& cohort, const Stage& stage, const std::string& pseudonym,
-                       const StageResult& known, bool verify) {
+                       const StageResult& known, bool verify, const std::string& accepted,
+                       const Places& places = {}) {
+  StageResult out;
+  if (!places.result && !places.record) return out;
   const fs::path folder = cohort / stage.folder / pseudonym;
   const fs::path record = cohort / "logs" / pseudonym / (std::string(stage.name) + ".json");
-  StageResult out;
   if (const std::string made = stamp_of(folder / "manifest.json"); !made.empty()) {
     const bool same = known.stamp == made && is_done(known.state) && !verify;
-    out = same ? known : result_of_manifest(folder, stage, verify);
+    out = same ? known : result_of_manifest(folder, stage, verify, accepted);
     out.stamp = made;
     if (same && stamp_of(folder / stage.result).empty()) out.state = StageState::damaged;
   } else if (const std::string written = stamp_of(record); !written.empty()) {
@@ -129,6 +158,7 @@ OpenCohort::OpenCohort(const fs::path& folder)
     throw InvalidInput("cannot use " + folder.string() +
                        ": a newer version of Ostia made this cohort (format " + meta.text(0) +
                        ", this one knows 1)");
+  has_later_tables_ = store_.try_execute(later_tables);
 }
 
 std::size_t OpenCohort::count(const char* table) const {
@@ -136,13 +166,46 @@ std::size_t OpenCohort::count(const char* table) const {
   return rows.step() ? static_cast<std::size_t>(rows.integer(0)) : 0;
 }
 
+std::int64_t OpenCohort::number_of(const std::string& pseudonym) const {
+  Query row(store_, "SELECT number FROM scan WHERE pseudonym = ?");
+  return row.with(pseudonym).step() ? row.integer(0) : 0;
+}
+
+StageResult OpenCohort::result_of(const std::string& pseudonym, std::size_t stage) const {
+  return result_now(folder_, stages[stage], pseudonym, {}, false, "");
+}
+
+std::string OpenCohort::table_digest() const {
+  Query meta(store_, "SELECT value FROM meta WHERE key = 'table_sha256'");
+  return meta.step() ? meta.text(0) : "";
+}
+
+void OpenCohort::add_reviews(std::vector<CohortScan>& scans) const {
+  if (!has_later_tables_ || scans.empty()) return;
+  Query rows(store_,
+             "SELECT scan, verdict, reader, time, made, result FROM review WHERE scan BETWEEN ? AND ? "
+             "ORDER BY scan, number");
+  rows.with(scans.front().number, scans.back().number);
+  auto at = scans.begin();
+  while (rows.step()) {
+    while (at != scans.end() && at->number < rows.integer(0)) ++at;
+    if (at == scans.end() || at->number != rows.integer(0)) continue;
+    const auto verdict = verdict_named(rows.text(1));
+    if (!verdict || *verdict == Verdict::none)
+      at->review.reset();
+    else
+      at->review = KnownReview{*verdict, rows.text(2), rows.text(3), rows.text(4), rows.text(5)};
+  }
+}
+
 std::vector<CohortScan> OpenCohort::scans_from(std::int64_t number) const {
   std::vector<CohortScan> scans;
   Query rows(store_,
              "SELECT number, pseudonym, patient, kind FROM scan WHERE number >= ? ORDER BY number LIMIT ?");
   rows.with(number, block);
-  while (rows.step()) scans.push_back({rows.integer(0), rows.text(1), rows.text(2), rows.text(3), {}});
+  while (rows.step()) scans.push_back({rows.integer(0), rows.text(1), rows.text(2), rows.text(3)});
   if (scans.empty()) return scans;
+  add_reviews(scans);
   Query known(
       store_,
       "SELECT scan, stage, state, exit_code, seconds, peak_mb, reason, inputs, result, stamp FROM stage "
@@ -186,24 +249,35 @@ void OpenCohort::for_each(const StatusOptions& options, const core::TaskContext&
                           const std::function<void(const CohortScan&)>& take) const {
   const double all = std::max(1.0, static_cast<double>(count("scan")));
   double done = 0.0;
+  std::vector<ListedFolder> made;
+  for (const Stage& stage : stages) made.emplace_back(folder_ / stage.folder);
+  const ListedFolder logs(folder_ / "logs");
   const bool may_write = ::access(folder_.c_str(), W_OK) == 0;
   Query put(store_, "INSERT OR REPLACE INTO stage VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (std::vector<CohortScan> known = scans_from(0); !known.empty();
        known = scans_from(known.back().number + 1)) {
     const bool keeping = may_write && store_.try_execute("BEGIN IMMEDIATE");
+    keeps_ = keeping;
     for (const CohortScan& before : known) {
       task.throw_if_cancelled();
       CohortScan now = before;
+      const bool has_logs = logs.may_have(now.pseudonym);
       for (std::size_t i = 0; i < stages.size(); ++i)
-        now.results[i] = result_now(folder_, stages[i], now.pseudonym, before.results[i], options.verify);
+        now.results[i] = result_now(folder_, stages[i], now.pseudonym, before.results[i], options.verify,
+                                    now.review && i == reviewed_stage ? now.review->result : "",
+                                    {made[i].may_have(now.pseudonym), has_logs});
       if (keeping) keep_changes(put, before, now);
       // What follows from others is not kept: they may change without it.
+      StageResult& reviewed = now.results[reviewed_stage];
+      if (now.review && (!is_done(reviewed.state) || now.review->made != reviewed.result)) now.review.reset();
+      if (now.review) reviewed.result = now.review->result;
       for (std::size_t i = 0; i < stages.size(); ++i)
         if (stages[i].after >= 0)
           now.results[i].state =
               state_after(now.results[i], now.results[static_cast<std::size_t>(stages[i].after)]);
       take(now);
     }
+    keeps_ = false;
     if (keeping) store_.execute("COMMIT");
     done += static_cast<double>(known.size());
     task.set_progress(done / all);

@@ -2,6 +2,8 @@
 
 #include "ostia/core/error.h"
 
+#include <limits>
+
 namespace ostia::cohort {
 namespace {
 
@@ -85,6 +87,11 @@ bool Query::step() {
   sqlite3_reset(handle_);
   if (code != SQLITE_DONE) store_->raise(code);
   return false;
+}
+
+double Query::real_or_nan(int column) const {
+  const bool none = sqlite3_column_type(handle_, column) == SQLITE_NULL;
+  return none ? std::numeric_limits<double>::quiet_NaN() : real(column);
 }
 
 std::string Query::text(int column) const {

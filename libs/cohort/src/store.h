@@ -50,6 +50,8 @@ class Query {
   bool step();  ///< true: a row is there; false: done, and the query is reset
   std::int64_t integer(int column) const { return sqlite3_column_int64(handle_, column); }
   double real(int column) const { return sqlite3_column_double(handle_, column); }
+  /// NaN where there is none; `with` writes NaN as none.
+  double real_or_nan(int column) const;
   std::string text(int column) const;
 
  private:

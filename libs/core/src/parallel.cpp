@@ -1,5 +1,7 @@
 #include "ostia/core/parallel.h"
 
+#include "background_loops.h"
+
 #include "ostia/core/job.h"
 
 #include <sys/resource.h>
@@ -14,6 +16,7 @@ namespace ostia::core {
 namespace {
 
 std::atomic<int> thread_limit{0};
+thread_local bool in_background = false;
 
 }  // namespace
 
@@ -29,6 +32,7 @@ int max_threads() {
 
 void lower_thread_priority() {
   constexpr int niceness = 10;
+  in_background = true;
   // Linux keeps it by thread. Where it is refused the work goes on as it is.
   static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), niceness));
 }
@@ -52,6 +56,7 @@ void parallel_chunks(std::size_t count, std::size_t grain,
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
     return;
   }
+  if (in_background) return detail::run_in_background(chunks, threads, run_chunk);
   const auto loop = [&, job = current_job()] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks, 1),

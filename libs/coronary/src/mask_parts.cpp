@@ -198,9 +198,10 @@ void refuse_what_is_left(const MaskParts& parts, double left_mm3, double object_
     throw GeometryError(
         "the mask holds no vessels: " + millilitres(parts.thick_mm3) + " of its " + millilitres(object_mm3) +
         " are thicker than coronary arteries are, as in an organ, a chamber or a mask that is "
-        "full; export the label of the coronary arteries");
-  throw GeometryError("the mask holds specks alone, " + core::rounded_text(object_mm3, 1) +
-                      " mm3 in all, and no vessel; look whether the right label was exported");
+        "full; export the label of the coronary arteries, with voxels in mm");
+  throw GeometryError(
+      "the mask holds specks alone, " + core::rounded_text(object_mm3, 1) +
+      " mm3 in all, and no vessel; look whether the right label was exported, with voxels in mm");
 }
 
 }  // namespace

@@ -38,6 +38,17 @@ void check_range(double value, double least, double most, const char* name, cons
                      "]" + unit);
 }
 
+/// Lines of noise close circle after circle; to part them all would take hours.
+void refuse_sponge(const SkeletonGraph& skeleton) {
+  constexpr std::size_t most_circles = 300;  // where vessels of a mask touch: a few
+  if (skeleton.edges.size() < skeleton.nodes.size() + most_circles) return;
+  throw GeometryError("the mask is a sponge, as noise is: its middle lines close " +
+                      std::to_string(skeleton.edges.size() - skeleton.nodes.size()) +
+                      " circles or more, where those of vessels that touch close a few; take a higher "
+                      "threshold for it, or smooth it: `ostia filter MASK -o OUT.nrrd --with "
+                      "median:radius_mm=1`");
+}
+
 /// Lines as splines. Where a line's points are too few for one, it swings out far from them: that line stays
 /// as it is.
 SkeletonGraph gently_smoothed(const SkeletonGraph& lines) {
@@ -232,7 +243,9 @@ MaskTree mask_tree(const imaging::MaskVolume& labels, const MaskTreeOptions& opt
   task.set_stage("thinning");
   const centerline::Thinned thin =
       centerline::thinned(result.lumen, {.keep_ends = true, .fill_cavities = true}, task.sub(0.1, 0.4));
-  LineGraph graph(centerline::skeleton_graph(thin, task.sub(0.4, 0.45)));
+  const SkeletonGraph skeleton = centerline::skeleton_graph(thin, task.sub(0.4, 0.45));
+  refuse_sponge(skeleton);
+  LineGraph graph(skeleton);
   prune_lines(graph, {}, first_prune_mm, options.speck_mm);
   graph = LineGraph(centerline::ends_extended(graph.graph(), result.lumen));
   task.set_stage("ostia, gaps and what touches");

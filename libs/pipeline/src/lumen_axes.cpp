@@ -1,7 +1,7 @@
 #include "ostia/pipeline/lumen_axes.h"
 
-#include "intake_ends.h"
-#include "part_ends.h"
+#include "intake/intake_ends.h"
+#include "intake/part_ends.h"
 
 #include "ostia/core/parallel_invoke.h"
 #include "ostia/core/text.h"

@@ -221,7 +221,6 @@ Model mesh_model(LumenWithAxes lumen, const ModelOptions& options, const core::T
   meshing_options.clip = clip_of(model.source, options);
   meshing_options.clip.planes.insert(meshing_options.clip.planes.end(), lumen.stubs.begin(),
                                      lumen.stubs.end());
-  meshing_options.inset_radii.reset();
   const auto mesh = model.source.kind == SourceKind::surface ? mesh_surface : mesh_lumen;
   model.meshed = mesh(model.lumen, lumen.axes, meshing_options, task);
   append(model.warnings, model.meshed.warnings);

@@ -67,6 +67,7 @@ struct Workbench::Measured {
   analysis::Ostium ostium;
   std::vector<analysis::Stenosis> stenoses;
   bool measured = false;
+  bool other_tree = false;             // vessels about it came or went: what is told by branches is read anew
   double from_mm = 0.0, to_mm = -1.0;  // nothing where from > to
 
   void moved(double from, double to) {
@@ -172,13 +173,14 @@ Workbench::Measured* Workbench::measured_of(std::int32_t id) const {
   if (!shown || !has_vessel(*shown, id)) return nullptr;
   std::unique_ptr<Measured>& found = measured_[id];
   if (!found) found = std::make_unique<Measured>();
-  if (found->measured && found->from_mm > found->to_mm) return found.get();
+  const bool moved = found->from_mm <= found->to_mm;
+  if (found->measured && !moved && !found->other_tree) return found.get();
   const auto surface_of = [this](std::int32_t one) { return session_->live().surface(one); };
-  if (found->measured)
+  if (found->measured && moved)
     analysis::update_profile(found->profile, *shown, surface_of, found->from_mm, found->to_mm);
-  else
-    found->profile = analysis::lumen_profile(*shown, surface_of, id);
+  if (!found->measured) found->profile = analysis::lumen_profile(*shown, surface_of, id);
   found->measured = true;
+  found->other_tree = false;
   found->to_mm = found->from_mm - 1.0;
   interpret(*shown, id, *found);
   return found.get();
@@ -353,7 +355,11 @@ void Workbench::follow(const Session::Done& done, const lumen::LumenModel& befor
     event.change = done.change;
     event.dismissed = dismissed_places(before, done.outcome.changes);
     event.tree_changed = any_axis_changed(done.outcome.changes) || !same_names(before.tree, now.tree);
-    if (event.tree_changed) measured_.clear();
+    if (event.tree_changed) {  // what was measured of vessels that run as before stays
+      for (const lumen::VesselChange& change : done.outcome.changes)
+        if (change.axis_changed) measured_.erase(change.vessel);
+      for (const auto& one : measured_) one.second->other_tree = true;
+    }
     // A wall is also its neighbours' on the stretch that they share; a profile asks the owner.
     for (const auto& of : done.change.vessels)
       for (const auto& [id, known] : measured_) {

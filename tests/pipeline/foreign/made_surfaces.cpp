@@ -353,7 +353,7 @@ std::vector<Fault> faults() {
        [](MadeSurface& made) {
          made.mesh = geometry::merged(made.mesh, shifted(made.mesh, Vec3(0.0, 200.0, 0.0)));
          const std::vector<std::int32_t> once = made.labels;
-         for (const std::int32_t label : once) made.labels.push_back(100 + label);
+         made.labels.insert(made.labels.end(), once.begin(), once.end());
        },
        [](ForeignKind& kind) { kind.parts *= 2, kind.outlets *= 2; }},
   };

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace ostia::cohort {
 
@@ -18,11 +19,17 @@ struct Stage {
   int after;           ///< index of the stage whose result it reads; -1: the scan itself
   const char* result;  ///< the file in its folder that stands for it, and that others read
 };
-inline constexpr std::array<Stage, 5> stages{{{"import", "inputs", -1, "scan.nrrd"},
+inline constexpr std::array<Stage, 6> stages{{{"import", "inputs", -1, "scan.nrrd"},
                                               {"extract", "cases", 0, "case.ostia"},
                                               {"lumen", "lumens", 1, "lumen.vtp"},
                                               {"mesh", "meshes", 1, "mesh/mesh.vtu"},
-                                              {"measures", "measures", 1, "report/report.json"}}};
+                                              {"measures", "measures", 1, "report/report.json"},
+                                              {"pressure", "flow", 1, "pressure/ffr.json"}}};
+constexpr std::size_t stage_of(std::string_view name) {
+  std::size_t i = 0;
+  while (i < stages.size() && name != stages[i].name) ++i;
+  return i;
+}
 
 inline constexpr const char* database_name = "cohort.sqlite";
 

@@ -41,10 +41,16 @@ struct FailureReason {
   std::string example;  ///< pseudonym of one of them
 };
 
+/// Scans whose case is made, by what a person said of the case that is there now.
+struct ReviewCounts {
+  std::size_t ok = 0, again = 0, open = 0;
+};
+
 struct CohortStatus {
   std::size_t scans = 0;
   std::size_t refused = 0;  ///< rows of the table that were left out when the cohort was begun
   std::size_t whole = 0;    ///< scans whose stages are all done
+  ReviewCounts review;
   std::vector<StageCounts> stages;
   std::vector<FailureReason> reasons;  ///< most frequent first
 };
@@ -55,8 +61,8 @@ struct StatusOptions {
 
 /// A stage counts as done where its folder has a manifest of a finished run, what it names is there, and it
 /// was made of the result before it that is there now. What was read before is kept in the database and not
-/// read again unless it changed; where the database cannot be written all is read each time. Memory does not
-/// grow with the number of scans. Throws InvalidInput (no cohort, one of a newer version), IoError,
+/// read again unless it changed; where the database cannot be written all is read each time. Memory
+/// grows by 8 bytes a result. Throws InvalidInput (no cohort, one of a newer version), IoError,
 /// Cancelled.
 CohortStatus read_status(const std::filesystem::path& cohort, const StatusOptions& options = {},
                          const core::TaskContext& task = core::no_task());

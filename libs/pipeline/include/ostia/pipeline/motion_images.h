@@ -20,7 +20,14 @@ struct PhaseView {
   std::function<std::shared_ptr<const imaging::ImageVolume>(const core::TaskContext&)> read;
 };
 
+/// What brings the template into another image, before its wall is looked for there.
+enum class ImageCarrier {
+  cage,      ///< our own: cages from coarse to fine, by the values about the wall
+  b_splines  ///< ITK's, by all of the image within 25 mm of the template (registration::register_phases)
+};
+
 struct ImagePhasesOptions {
+  ImageCarrier carrier = ImageCarrier::cage;
   double template_phase = 0.75;  ///< at which the template is; there must be an image of it
   int depth = 4;                 ///< of the cage, as motion::RegistrationOptions; [1, 5]
   double margin = 0.1;           ///< of the cage, as there
@@ -47,7 +54,8 @@ struct ImagePhases {
 /// Carries the template to every phase by its image: outward in time, both ways, each from its neighbour's
 /// cage. The values about the template's wall in its own image are looked for in the other's, from blurred
 /// to sharp and from coarse cages to fine ones; then each point's wall is moved along its normal to where the
-/// profile of intensities is most like the template's. Images may be on any grids of one frame. Throws
+/// profile of intensities is most like the template's. With ITK's B-splines each phase's map begins with the
+/// rigid part of its neighbour's. Images may be on any grids of one frame. Throws
 /// InvalidInput: a template without triangles, no image of the template's phase, a template that lies
 /// outside of it, two views of one phase, fewer than three; Cancelled; what `read` throws. Deterministic.
 ImagePhases surfaces_from_images(const geometry::TriMesh& shape, std::vector<PhaseView> views,

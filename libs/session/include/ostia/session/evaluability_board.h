@@ -28,7 +28,7 @@ struct EvaluabilityWork {
 };
 
 /// Watches the workbench. After an edit what was known of a vessel is kept until it is found anew, so that
-/// nothing flickers; another tree, image or case begins afresh. One thread.
+/// nothing flickers, also where other vessels come or go; another image or case begins afresh. One thread.
 class EvaluabilityBoard {
  public:
   explicit EvaluabilityBoard(Workbench& bench);
@@ -54,6 +54,7 @@ class EvaluabilityBoard {
   struct Known {
     std::vector<analysis::EvaluableStretch> stretches;
     bool stale = true;
+    double length_mm = 0.0;  ///< of its vessel
   };
   void drop();
   Workbench& bench_;

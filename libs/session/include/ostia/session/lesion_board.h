@@ -52,8 +52,9 @@ struct PlaqueWork : WallsWanted {
   std::optional<Found> found(const core::TaskContext& task = core::no_task()) const;
 };
 
-/// Watches the workbench. After an edit what was known of a vessel's plaque is kept until it is found anew;
-/// another tree, image or case begins afresh. One thread.
+/// Watches the workbench. After an edit what was known of a vessel's plaque is kept until it is found anew,
+/// also where other vessels come or go; another image or case begins afresh. What the reader said is in the
+/// case (Annotations), by the vessel's id, and found again with the vessel. One thread.
 class LesionBoard {
  public:
   /// `walls`: what others who look for walls find, too.
@@ -82,6 +83,7 @@ class LesionBoard {
   struct Known {
     std::optional<analysis::PlaqueProfile> plaque;
     bool stale = true;
+    double length_mm = 0.0;  ///< of its vessel
   };
   void drop();
   void touch();

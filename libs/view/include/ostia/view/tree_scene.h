@@ -88,6 +88,9 @@ class TreeScene {
   void clear_wall_values();  ///< back to the vessels' colours
   /// Mixed into the vessels' colours until others are given; vessels that are not there do not matter.
   void set_colored_stretches(std::vector<ColoredStretch> stretches);
+  /// A wall of another time over this one, half transparent and of one colour; null takes it away. It is
+  /// neither picked nor framed, and not shown with a guest. Throws InvalidInput as set_wall does.
+  void set_other_wall(std::shared_ptr<const geometry::TriMesh> wall);
   /// Something else in the wall's place, with a bar of its own; null: the wall again. A wall that is not
   /// shown is not picked.
   void set_guest(std::shared_ptr<SceneGuest> guest);

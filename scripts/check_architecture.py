@@ -34,7 +34,7 @@ FEATURES = ["opening", "archive", "trees", "phases", "calcium", "vessels", "meas
 WORKSTATION = FRAME | set(FEATURES)
 COMPOSED_IN = re.compile(r"shell/(main_window\w*|panel_layout)\.cpp$")
 # The command line: what serves all commands, and a folder for what they work on. Above the folders, all of them together.
-COMMAND_LINE = {"options", "input", "output", "convert", "pacs", "vessel", "tree", "mesh", "flow", "measure", "motion", "phantom", "evaluate", "experiment", "chain", "cohort"}
+COMMAND_LINE = {"options", "input", "output", "convert", "pacs", "vessel", "tree", "mesh", "flow", "measure", "motion", "phantom", "evaluate", "experiment", "chain", "cohort", "doctor"}
 ABOVE_COMMANDS = {"main", "cli", "commands", "command_table"}
 # Python's hands: a source a room, which is named after it, and what they share. pybind11 stands nowhere else.
 SHARED_BY_BINDINGS = {"module", "rooms", "array", "call", "errors", "figures", "options", "values"}

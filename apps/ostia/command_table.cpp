@@ -132,6 +132,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_dicom(app, c.dicom, run);
   define_deidentify(app, c.deidentify, run);
   define_filter(app, c.filter, run, add_dicom);
+  define_doctor(app, c.doctor, run);
   define_skeleton(app, c.skeleton, run);
   define_grow(app, c.grow, c.common.seed, run);
   define_reconstruct(app, c.reconstruct, run);

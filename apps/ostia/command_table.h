@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "convert/deidentify.h"
 #include "convert/filter.h"
+#include "doctor/doctor.h"
 #include "evaluate/evaluate.h"
 #include "experiment/experiment.h"
 #include "flow/ffr.h"
@@ -64,6 +65,7 @@ struct Commands {
   DicomCommand dicom;
   DeidentifyCommand deidentify;
   FilterCommand filter;
+  DoctorCommand doctor;
   SkeletonCommand skeleton;
   GrowCommand grow;
   ReconstructCommand reconstruct;

@@ -129,6 +129,33 @@ TEST(MaskCommands, MasksWithoutVesselsAreRefusedByNameAndLeaveNoCase) {
   EXPECT_EQ(wrong.code, 2);
 }
 
+/// A CT of which the vessels alone were left, on zeros or on air.
+TEST(MaskCommands, AMaskWithTheValuesOfACtIsOfferedTheOptionThatTakesIt) {
+  const Setting in{heart_with_labels(), ""};
+  ASSERT_EQ(case_of_mask().code, 0) << case_of_mask().err;
+  const imaging::MaskVolume mask = imaging::read_mask(in.folder / "mask.nii.gz").volume;
+  for (const int outside : {0, -1024}) {
+    imaging::ImageVolume image{mask.geometry, {}};
+    for (std::size_t i = 0; i < mask.voxels.size(); ++i)
+      image.voxels.push_back(
+          static_cast<std::int16_t>(mask.voxels[i] != 0 ? 250 + static_cast<int>(i % 199) : outside));
+    imaging::write_image(in.folder / "vessels.nrrd", image);
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"extract", "vessels.nrrd", "-o", "none.ostia"},
+          {"model", "vessels.nrrd", "-o", "none"},
+          {"mesh", "vessels.nrrd", "-o", "none"}}) {
+      const Outcome refused = ostia(command, in);
+      EXPECT_EQ(refused.code, 3) << refused.err;
+      EXPECT_THAT(refused.err, HasSubstr("--mask")) << command.front();
+    }
+    const Outcome taken = ostia({"extract", "vessels.nrrd", "--mask", "-o", "vessels.ostia"}, in);
+    EXPECT_EQ(taken.code, 0) << taken.err;
+    EXPECT_EQ(taken.out, ostia({"extract", "mask.nii.gz", "-o", "again.ostia"}, in).out);
+    fs::remove(in.folder / "vessels.ostia");
+    fs::remove(in.folder / "again.ostia");
+  }
+}
+
 TEST(MaskCommands, LabelsNeedACaseAndAGrid) {
   const Setting in{heart_with_labels(), ""};
   ASSERT_EQ(case_of_mask().code, 0) << case_of_mask().err;

@@ -197,6 +197,7 @@ class Maker {
     for (const auto& [name, kind] : std::vector<std::pair<std::string, SeamKind>>{
              {"case.stl", surface}, {"case.vtp", lines}, {"case.csv", lines}, {"case.swc", lines}})
       make({"convert", "case.ostia", name}, {{name, kind}});
+    make({"convert", "case.ostia", "labels.nrrd", "--grid", "image.nrrd"}, {{"labels.nrrd", mask}});
     make({"report", "case.ostia", "-o", "report"}, {{"report", result}});
     make({"measure", "case.ostia", "-o", "measures"}, {{"measures", result}});
     make({"ffr", "case.ostia", "-o", "ffr"},

@@ -29,7 +29,7 @@ def free_ports(count):
 class Cluster:
     def __init__(self, folder, cores, memory_mb):
         self.folder, self.running = pathlib.Path(folder), {}
-        host = socket.gethostname().split(".")[0]
+        self.host = host = socket.gethostname().split(".")[0]
         control, node = free_ports(2)
         for name in ("state", "spool", "munge"):
             (self.folder / name).mkdir(mode=0o755, parents=True)
@@ -99,6 +99,14 @@ PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         self.running["slurmctld"].send_signal(signal.SIGKILL)
         self.running["slurmctld"].wait()
         self.start("slurmctld", "-D")
+
+    def mend(self):
+        """As who keeps the cluster does: a controller that was killed before it had written down that a job runs starts it again, and closes the node that refuses that."""
+        if "drain" in self.ask("sinfo", "-h", "-o", "%T"):
+            self.ask("scontrol", "update", f"NodeName={self.host}", "State=RESUME")
+        for job in self.ask("squeue", "-h", "-t", "PENDING", "-o", "%A %r").splitlines():
+            if "Held" in job:
+                self.ask("scontrol", "release", job.split()[0])
 
     def stop(self):
         self.ask("scancel", "--user=root")

@@ -27,6 +27,7 @@ HELP_MARKS = {r"ostia experiment (editing|orientations|smoothness)|ostia phantom
               r"ostia experiment (chain|carotid)": ("not run", "needs data that are not in the repository"),
               r"ostia carry": ("not run", "needs two scans of one patient"),
               r"ostia cohort serve": ("not run", "serves until it is interrupted"),
+              r"ostia cohort (crate|reproduce|statistics)": ("not run", "needs a cohort that the workflow has worked on"),
               r"ostia pacs": ("not run", "needs a server of one's own"),
               r"ostia plugin run": ("not run", "needs a plug-in in a folder of its own"),
               r"Allrun": ("needs", "simpleFoam")}

@@ -117,6 +117,23 @@ TEST(ClipEnds, CutAnOpenEndThatIsRagged) {
   EXPECT_TRUE(clipped.ends[1].was_open);
 }
 
+TEST(ClipEnds, CutAnOpenEndWhoseRimCrossesItselfALittleInside) {
+  const auto shape = geometry::straight_tube(16.0, 1.5);
+  geometry::TriMesh surface = geometry::surface_of(shape, 0.25, true);
+  for (const std::vector<std::int32_t>& loop : geometry::boundary_loops(surface)) {
+    auto at = [&](std::size_t i) -> Vec3& { return surface.points[static_cast<std::size_t>(loop[i])]; };
+    if (at(0).z() < 8.0)
+      std::swap(at(0), at(1));  // two neighbours in each other's place: their outer edges cross
+  }
+  const ClippedSurface clipped = clip_ends(surface, tree_of(shape));
+  expect_clean(clipped, 2);
+  EXPECT_FALSE(clipped.ends[0].was_open);
+  EXPECT_TRUE(clipped.ends[1].was_open);
+  EXPECT_LT(clipped.ends[0].plane.origin.z(), 0.6 * 1.5);
+  ASSERT_FALSE(clipped.warnings.empty());
+  EXPECT_NE(clipped.warnings[0].find("its rim crosses itself"), std::string::npos) << clipped.warnings[0];
+}
+
 TEST(ClipEnds, GoFartherInsideWhereAnEndIsTornAslant) {
   const auto shape = geometry::straight_tube(16.0, 1.5);
   const geometry::TriMesh surface = geometry::surface_of(shape, 0.25, true);

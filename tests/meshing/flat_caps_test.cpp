@@ -132,6 +132,57 @@ TEST(FlatCaps, OpenEndsStayAndClosedOnesOpen) {
   EXPECT_EQ(geometry::boundary_loops(opened.wall).size(), 2u);
 }
 
+/// Each open end closed by a fan about a point `raised` of its radius outside of its plane.
+FacedSurface closed_by_fans(TriMesh open, double raised) {
+  for (const std::vector<std::int32_t>& loop : geometry::boundary_loops(open)) {
+    const GivenEnd end = end_at_loop(open, loop);
+    const auto hub = static_cast<std::int32_t>(open.points.size());
+    open.points.push_back(end.centre + raised * end.radius_mm * end.normal);
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      open.triangles.push_back({hub, loop[(i + 1) % loop.size()], loop[i]});
+  }
+  return {std::move(open), {}, {}};
+}
+
+TEST(FlatCaps, MayHaveTheRaisedMiddleThatVmtkGivesThem) {
+  const TriMesh open = geometry::surface_of(geometry::y_junction(20.0, 15.0, 2.0, 1.5, 60.0), 0.4, true);
+  expect_three_ends(without_flat_caps(closed_by_fans(open, 0.1)), geometry::area(open));
+  EXPECT_TRUE(without_flat_caps(closed_by_fans(open, 0.3)).ends.empty()) << "pointed, and no caps";
+}
+
+/// Points `share` of an edge behind each of two neighbours on a rim, and `off` of that out of its plane: the
+/// fan has two slim triangles.
+TriMesh with_slim_edges(TriMesh open, double share, double off) {
+  const std::vector<std::int32_t> loop = geometry::boundary_loops(open).front();
+  const Vec3 outward = end_at_loop(open, loop).normal;
+  for (const std::size_t i : {0U, 7U}) {
+    const std::int32_t a = loop[i], b = loop[i + 1], between = static_cast<std::int32_t>(open.points.size());
+    const Vec3 from = open.points[static_cast<std::size_t>(a)],
+               edge = open.points[static_cast<std::size_t>(b)] - from;
+    open.points.push_back(from + share * edge + off * share * edge.norm() * outward);
+    const std::size_t count = open.triangles.size();
+    for (std::size_t t = 0; t < count; ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (open.triangles[t][k] != a || open.triangles[t][(k + 1) % 3] != b) continue;
+        const std::int32_t c = open.triangles[t][(k + 2) % 3];
+        open.triangles[t] = {a, between, c};
+        open.triangles.push_back({between, b, c});
+      }
+  }
+  return open;
+}
+
+/// A slim triangle's direction says nothing: it parts no cap, and is not left behind on the wall.
+TEST(FlatCaps, StayWholeWhereSlimTrianglesRunThroughThem) {
+  const TriMesh tube = geometry::structured_surface(geometry::straight_tube(12.0, 2.0).tubes[0], 24, 0.5);
+  for (const auto& [share, off] : {std::pair{1e-5, 2.0}, std::pair{0.02, 0.5}}) {
+    const TriMesh open = with_slim_edges(tube, share, off);
+    const OpenedCaps opened = without_flat_caps(closed_by_fans(open, 0.0));
+    ASSERT_EQ(opened.ends.size(), 2u) << share;
+    EXPECT_NEAR(geometry::area(opened.wall), geometry::area(open), 1e-9) << share;
+  }
+}
+
 TEST(FlatCaps, RefusesWhatDoesNotBelongTogether) {
   FacedSurface surface = capped_y();
   surface.face_ids.pop_back();

@@ -1,9 +1,11 @@
 #include "shared_data.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/sampling.h"
 #include "ostia/pipeline/model.h"
 #include "ostia/pipeline/repair.h"
+#include "ostia/pipeline/source.h"
 #include "ostia/reformat/section.h"
 
 #include <gtest/gtest.h>
@@ -79,6 +81,18 @@ double section_diameter(const geometry::TriMesh& lumen, const Centerline& axis, 
     if (std::isfinite(nearest)) radii.push_back(nearest);
   }
   return diameter(radii);
+}
+
+/// VMTK's capper closed it, by fans whose middles stand a tenth of a radius off their rims.
+TEST(SurfaceReal, ACappedCarotidKeepsAllOfItsLength) {
+  OSTIA_REQUIRE_SHARED(file, "vessels/carotid-jackyko/leftlumen_capped.stl");
+  const Source source = load(file);
+  ASSERT_EQ(source.ends.size(), 3u);
+  const auto loops = geometry::boundary_loops(source.surface);
+  EXPECT_EQ(loops.size(), 3u);
+  const geometry::Box3 box = geometry::bounds(source.surface.points);
+  EXPECT_LT(box.min().z(), -21.5);
+  EXPECT_GT(box.max().z(), 29.3);
 }
 
 TEST(ModelReal, AscendingAortaOfACta) {

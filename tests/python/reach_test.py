@@ -73,6 +73,9 @@ BY_COMMAND_ALONE = {
     "cohort_serve": "serves that page to a browser until it is interrupted",
     "cohort_review": "takes in a file that the page exported; its rows are in that folder's SQLite file",
     "cohort_compare": "makes a page of two such folders; its JSON and CSV are what a script reads",
+    "cohort_crate": "tells in a JSON file of that folder how its results were made",
+    "cohort_reproduce": "runs commands on scans of that folder once more and compares files",
+    "cohort_statistics": "makes a page of those tables and a table beside them; its CSV files are what a script reads",
     "cohort_table": "gathers reports of that folder into CSV and SQLite, which a script reads",
     "pacs_echo": "asks a server on the network whether it answers",
     "pacs_find": "asks a server on the network; its JSON is what a script reads",
@@ -81,6 +84,7 @@ BY_COMMAND_ALONE = {
     "pacs_queue": "shows and sends what waits for a server",
     "dicom": "writes the files that a PACS keeps; its numbers are those of write_report",
     "deidentify": "copies files for others",
+    "doctor": "looks at the machine and the installed programs",
     "plugin_list": "lists a person's own Python functions, which a script imports",
     "plugin_run": "runs one of them on a copy of a case; a script calls it",
 }

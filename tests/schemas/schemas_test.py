@@ -367,6 +367,14 @@ class Schemas(Refusing):
         self.assert_refused("dicom-objects", {**made, "path": "/home"})
         self.assert_refused("dicom-measurements", {**told, "groups": [{}]})
 
+    def test_doctor(self):
+        holder = pathlib.Path(self.holder.name) / "looked_at"
+        holder.mkdir()
+        made = json.loads(run("doctor", holder, "--json", codes=(0, 4)))
+        validator("doctor").validate(made)
+        self.assertEqual(made["looked_at"], [{"kind": "folder", "strays": 0, "removed": 0}])
+        self.assert_refused("doctor", {**made, "path": "/home"})
+
     def test_deidentified(self):
         holder = pathlib.Path(self.holder.name)
         (holder / "named").mkdir()
@@ -559,10 +567,23 @@ class Schemas(Refusing):
         validator("cohort-reviews").validate(reviews)
         (at / "reviews.json").write_text(json.dumps(reviews))
         self.assertEqual(holds("cohort-review", "cohort", "review", at / "study", at / "reviews.json")["ok"], 1)
+        workflow = FOLDER.parent.parent / "apps/ostia/workflow"
+        subprocess.run([sys.executable, "-B", "-c", "import pathlib, sys\nsys.path.insert(0, sys.argv[1])\nimport runs, step\ncohort, folder = map(pathlib.Path, (sys.argv[2], sys.argv[1]))\n"
+                        "run = runs.begin(cohort, folder, {'threads': 1, 'retries': 2, 'needs_review': False}, {'name': 'snakemake', 'version': '7.21.0', 'python': '3.11.2'}, "
+                        "runs.version_of(sys.argv[3]), step.write_whole)\nruns.end(cohort, run, True, step.write_whole)", workflow, at / "study", PROGRAM], check=True, timeout=100)
+        validator("cohort-run").validate(json.loads((at / "study/logs/runs/1.json").read_text()))
+        self.assertEqual(holds("cohort-crate", "cohort", "crate", at / "study")["steps"], 3)
+        self.assertEqual(holds("cohort-reproduce", "cohort", "reproduce", at / "study", "-o", at / "reproduced")["differs"], 0)
+        validator("manifest").validate(json.loads((at / "reproduced" / "manifest.json").read_text()))
         holds("cohort-init", "cohort", "init", at / "scans.csv", "-o", at / "later", "--skip-bad", codes=(4,))
         self.assertEqual(holds("cohort-compare", "cohort", "compare", at / "study", at / "later", "-o", at / "changes")["matched"], 0)
         self.assertEqual(holds("cohort-table", "cohort", "table", at / "study", "-o", at / "tables")["scans"], 1)
         validator("manifest").validate(json.loads((at / "tables" / "manifest.json").read_text()))
+        (at / "tables.made").mkdir()
+        (at / "tables.made/measures.csv").write_text("scan,patient,level,entry,item,measure,value,unit\n" + "".join(f"p-{i},p-0,outlet,1,LAD,ffr,0.{i},1\n" for i in (5, 7, 9)))
+        (at / "known.csv").write_text("scan,ischemia,ffr\np-5,1,0.6\np-7,0,0.7\np-9,0,0.9\n")
+        self.assertEqual(holds("cohort-statistics", "cohort", "statistics", at / "tables.made", at / "known.csv", "-o", at / "statistics")["outcomes"][0]["area"], 1.0)
+        validator("manifest").validate(json.loads((at / "statistics" / "manifest.json").read_text()))
 
     def test_every_command_has_json(self):
         def commands(words):

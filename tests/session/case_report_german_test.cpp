@@ -171,6 +171,12 @@ TEST(GermanReport, OfABifurcationWithoutAnImageHasNoEnglishWord) {
   expect_german(
       report_html(report_of(narrowed_tube("x7", 40.0, 1.5, 20.0, 0.6), {}, {}, nullptr, unknown), {}));
   expect_german(report_html(checked_report(named_y(), nullptr, in_german()), {}));
+  const lumen::LumenModel doubtful = narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6);
+  ReportOptions hardly = in_german();
+  hardly.certainty = hardly_an_artery(doubtful, 0.01);
+  const std::string doubted = report_html(report_of(doubtful, {}, {}, nullptr, hardly), {});
+  expect_german(doubted);
+  EXPECT_THAT(doubted, HasSubstr("wohl keine Arterie (Wahrscheinlichkeit: RCA 0.01)"));
   expect_german(report_html(report_of(shut_tube(), {}, {}, nullptr, in_german()), {}));
 }
 

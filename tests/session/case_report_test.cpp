@@ -143,6 +143,30 @@ TEST(CaseReport, WhatCannotBeJudgedIsNotGradedUnlessAPersonHasCheckedIt) {
   EXPECT_EQ(to_string(checked.category), "3/N");
 }
 
+TEST(CaseReport, OfAVesselThatIsHardlyAnArteryNothingIsGradedAndTheArteryIsNamedAsMissing) {
+  const imaging::ImageVolume image = walled_image(1.5, 1.5, -90.0);
+  const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6);
+  ReportOptions options;
+  options.certainty = hardly_an_artery(model, 0.01);
+  const CaseReport report = report_of(model, {}, {}, &image, options);
+  ASSERT_EQ(report.stenoses.size(), 1U);
+  EXPECT_EQ(report.stenoses[0].evaluable->grade, analysis::Evaluability::evaluable);
+  EXPECT_FALSE(report.stenoses[0].graded);
+  EXPECT_THAT(report.stenoses[0].not_graded, HasSubstr("hardly an artery (probability 0.01)"));
+  EXPECT_EQ(to_string(report.category), "N");
+  EXPECT_THAT(report.not_found,
+              Contains("RCA: not found; what was found is hardly an artery (probability of RCA 0.01)"));
+  EXPECT_THAT(report_html(report, {}), HasSubstr("RCA: not found"));
+  EXPECT_THAT(report_json(report, {}), HasSubstr("\"unlikely\": 0.01"));
+
+  options.certainty = hardly_an_artery(model, 0.4);  // a doubt alone
+  EXPECT_EQ(to_string(report_of(model, {}, {}, &image, options).category), "3/N");
+  options.certainty = hardly_an_artery(model, 0.01);
+  const CaseReport checked = checked_report(model, &image, options);
+  EXPECT_EQ(to_string(checked.category), "3/N") << "a person says that it is one";
+  EXPECT_THAT(checked.not_found, Not(Contains(HasSubstr("RCA: not found"))));
+}
+
 TEST(CaseReport, TheReadersWordHolds) {
   const imaging::ImageVolume image = walled_image(1.5, 1.5, -90.0);
   const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6);

@@ -97,6 +97,21 @@ TEST(Doubts, APlaceGoesWithTheVesselThatItLiesOnAfterASplit) {
   EXPECT_EQ(places[1].vessel, tube_vessel);
 }
 
+TEST(Doubts, AVesselIsHardlyAnArteryUntilAPersonHasSeenToIt) {
+  const lumen::LumenModel model = testing::tube_model();
+  const auto certainty = certainty_of_tube({0.02, 0.01, 0.05}, 0.01);
+  const std::map<std::int32_t, double> unlikely = unlikely_vessels(certainty, model, {});
+  ASSERT_EQ(unlikely.size(), 1U);
+  EXPECT_EQ(unlikely.at(tube_vessel), 0.01);
+  EXPECT_TRUE(unlikely_vessels(certainty_of_tube({0.02, 0.9, 0.9}, 0.4), model, {}).empty());
+  Annotations checked;
+  checked.marks = {{tube_vessel, true, true, std::nullopt, ""}};
+  EXPECT_TRUE(unlikely_vessels(certainty, model, checked).empty());
+  auto elsewhere = certainty;  // the axis was drawn anew since
+  for (coronary::VesselPiece& piece : elsewhere[0].pieces) piece.place.x() += 8.0;
+  EXPECT_TRUE(unlikely_vessels(elsewhere, model, {}).empty());
+}
+
 TEST(Doubts, AreToldInWords) {
   EXPECT_EQ(doubt_text(certainty_of_tube({0.99, 0.95, 0.97})[0]), "");
   EXPECT_EQ(doubt_text(certainty_of_tube({0.99, 0.31, 0.97}, 0.62)[0]),

@@ -4,6 +4,8 @@
 
 #include "report_cases.h"
 
+#include "ostia/session/doubts.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -233,6 +235,22 @@ TEST_F(LesionTable, OfOneVesselAllStandsWhileAnotherGoesAndComesBack) {
   EXPECT_EQ(narrow()->state, LesionState::accepted);
   EXPECT_EQ(evaluability.stretches(lad).size(), 2U);
   EXPECT_EQ(evaluability.stretches(lad)[1].grade, analysis::Evaluability::not_evaluable) << "not known";
+}
+
+TEST_F(LesionTable, AVesselThatIsHardlyAnArteryHasNoGradeUntilItIsChecked) {
+  CaseFile file =
+      CaseFile::create(folder / "a.ostia", narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6), reference_);
+  keep_certainty(file, hardly_an_artery(*file.model(), 0.01));
+  bench.set_session(Session(std::move(file)));
+  bench.set_image({std::make_shared<const imaging::ImageVolume>(image), reference_});
+  bench.profile(vessel());
+  ASSERT_EQ(board.rows().size(), 1U);
+  EXPECT_EQ(board.rows()[0].bar(), GradeBar::unlikely);
+  VesselMark mark;
+  mark.vessel = vessel();
+  mark.checked = true;
+  bench.annotate(MarkVessel{mark});
+  EXPECT_EQ(board.rows()[0].bar(), GradeBar::none);
 }
 
 TEST_F(LesionTable, AWorkCanBeCancelledAndAVesselWithoutAWallIsNotTriedAgain) {

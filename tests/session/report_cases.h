@@ -69,6 +69,20 @@ inline CaseReport report_of(const lumen::LumenModel& model, const Annotations& a
   return make_case_report(model, solved_surfaces(model), annotations, journal, image, options);
 }
 
+/// The search's doubt about a model of one vessel along z.
+inline std::vector<coronary::VesselCertainty> hardly_an_artery(const lumen::LumenModel& model,
+                                                               double probability) {
+  coronary::VesselPiece piece;
+  piece.from_mm = 5.0, piece.to_mm = 15.0;
+  piece.place = {0.0, 0.0, 10.0};
+  piece.probability = probability;
+  coronary::VesselCertainty one;
+  one.vessel = model.tree.vessels.front().id;
+  one.pieces = {piece};
+  one.probability = probability;
+  return {one};
+}
+
 /// Of a case whose vessels a person has all checked.
 inline CaseReport checked_report(const lumen::LumenModel& model, const imaging::ImageVolume* image = nullptr,
                                  const ReportOptions& options = {}) {

@@ -60,6 +60,35 @@ TEST(FlowResult, TheReportWeighsWithArea) {
   EXPECT_THROW(flow_report(read, {0.7, 0.7}), InvalidInput);
 }
 
+/// A neck and a sac that a person named: the stress of one is not in the figures of the other.
+TEST(FlowResult, EachNamedWallHasItsOwnFigures) {
+  const Poiseuille truth;
+  geometry::MixedMesh mesh = tube(truth.length_mm, truth.radius_mm);
+  mesh.faces.push_back({9, "wall_sac", geometry::FaceKind::wall});
+  std::vector<double> area(2, 0.0);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (mesh.triangle_face_ids[i] != 1) continue;
+    const auto at = [&](std::size_t k) {
+      return mesh.points[static_cast<std::size_t>(mesh.triangles[i][k])];
+    };
+    const bool sac = (at(0) + at(1) + at(2)).z() / 3.0 > 0.6 * truth.length_mm;
+    if (sac) mesh.triangle_face_ids[i] = 9;
+    area[sac ? 1 : 0] += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
+  }
+  const FlowResult read = read_flow_result(made_up_steady(mesh, truth, {{"wall_sac", 0.25}}));
+  const FlowReport report = flow_report(read);
+  ASSERT_EQ(report.walls.size(), 2u);
+  for (const WallFigures& wall : report.walls) {
+    const bool sac = wall.name == "wall_sac";
+    EXPECT_EQ(wall.name, sac ? "wall_sac" : "wall");
+    EXPECT_NEAR(wall.area_mm2, area[sac ? 1 : 0], 1e-6);
+    for (const double value : {wall.mean_pa, wall.least_pa, wall.greatest_pa})
+      EXPECT_NEAR(value, (sac ? 0.25 : 1.0) * truth.shear_pa(), 1e-9);
+    EXPECT_EQ(wall.low_share, sac ? 1.0 : 0.0) << "below 0.4 Pa";
+  }
+  EXPECT_NE(report.walls[0].name, report.walls[1].name);
+}
+
 TEST(FlowResult, PercentilesAreOfTheArea) {
   const std::vector<double> values{3.0, 1.0, 2.0}, areas{1.0, 8.0, 1.0};
   EXPECT_EQ(weighted_percentile(values, areas, 0.05), 1.0);

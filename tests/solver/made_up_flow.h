@@ -5,6 +5,9 @@
 
 #include "ostia/solver/flow_result.h"
 
+#include <map>
+#include <string>
+
 namespace ostia::solver {
 
 inline std::string list_of(const std::vector<geometry::Vec3>& vectors) {
@@ -27,16 +30,18 @@ inline std::string list_of(const std::vector<double>& values) {
   return text + ");\n";
 }
 
-/// A field with values at the wall; other patches have none.
+/// A field with values at the walls, by their names; other patches have none.
 template <class Values>
-void write_field(const std::filesystem::path& file, const Values& cells, const Values& wall) {
+void write_field(const std::filesystem::path& file, const Values& cells,
+                 const std::map<std::string, Values>& walls) {
   const bool vectors = std::is_same_v<Values, std::vector<geometry::Vec3>>;
   std::filesystem::create_directories(file.parent_path());
-  core::write_file(file, std::string("FoamFile\n{\n format ascii;\n class ") +
-                             (vectors ? "volVectorField" : "volScalarField") +
-                             ";\n}\ndimensions [0 0 0 0 0 0 0];\ninternalField " + list_of(cells) +
-                             "boundaryField\n{\n wall\n {\n type calculated;\n value " + list_of(wall) +
-                             " }\n}\n");
+  std::string text =
+      std::string("FoamFile\n{\n format ascii;\n class ") + (vectors ? "volVectorField" : "volScalarField") +
+      ";\n}\ndimensions [0 0 0 0 0 0 0];\ninternalField " + list_of(cells) + "boundaryField\n{\n";
+  for (const auto& [name, values] : walls)
+    text += " " + name + "\n {\n type calculated;\n value " + list_of(values) + " }\n";
+  core::write_file(file, text + "}\n");
 }
 
 /// What a function object has written: value by time.
@@ -70,11 +75,11 @@ inline std::vector<geometry::Vec3> element_centres(const geometry::MixedMesh& me
   return centres;
 }
 
-/// Centres of the wall's facets in the order of its patch (a wall of triangles alone).
-inline std::vector<geometry::Vec3> wall_centres(const geometry::MixedMesh& mesh) {
+/// Centres of a wall's facets in the order of its patch (a wall of triangles alone).
+inline std::vector<geometry::Vec3> wall_centres(const geometry::MixedMesh& mesh, std::int32_t face = 1) {
   std::vector<geometry::Vec3> centres;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (mesh.triangle_face_ids[i] != 1) continue;
+    if (mesh.triangle_face_ids[i] != face) continue;
     geometry::Vec3 sum = geometry::Vec3::Zero();
     for (const std::int32_t p : mesh.triangles[i]) sum += mesh.points[static_cast<std::size_t>(p)];
     centres.push_back(sum / 3.0);
@@ -95,20 +100,28 @@ struct Poiseuille {
     const double mean = 1e-6 * flow_ml_s / (std::numbers::pi * std::pow(1e-3 * radius_mm, 2));
     return {0.0, 0.0, 2.0 * mean * (1.0 - s * s)};
   }
-  /// `factor` times this flow at a time. OpenFOAM's stress at the wall is kinematic and against the flow.
-  void write(const std::filesystem::path& time, const geometry::MixedMesh& mesh, double factor) const {
+  /// `factor` times this flow at a time, its stress at each wall times what `at_wall` says for the wall's
+  /// name. OpenFOAM's stress at the wall is kinematic and against the flow.
+  void write(const std::filesystem::path& time, const geometry::MixedMesh& mesh, double factor,
+             const std::map<std::string, double>& at_wall = {}) const {
     std::vector<geometry::Vec3> velocity;
-    std::vector<double> pressure, wall_pressure;
+    std::vector<double> pressure;
     for (const geometry::Vec3& p : element_centres(mesh)) {
       velocity.emplace_back(factor * velocity_m_s(p));
       pressure.push_back(factor * pressure_pa(p.z()));
     }
-    std::vector<geometry::Vec3> shear, none;
-    for (const geometry::Vec3& p : wall_centres(mesh)) {
-      wall_pressure.push_back(factor * pressure_pa(p.z()));
-      shear.emplace_back(0.0, 0.0, -factor * shear_pa() / density);
+    std::map<std::string, std::vector<double>> wall_pressure;
+    std::map<std::string, std::vector<geometry::Vec3>> shear, none;
+    for (const geometry::Face& face : mesh.faces) {
+      if (face.kind != geometry::FaceKind::wall) continue;
+      const auto times = at_wall.find(face.name);
+      const double stress_pa = factor * shear_pa() * (times == at_wall.end() ? 1.0 : times->second);
+      for (const geometry::Vec3& p : wall_centres(mesh, face.id)) {
+        wall_pressure[face.name].push_back(factor * pressure_pa(p.z()));
+        shear[face.name].emplace_back(0.0, 0.0, -stress_pa / density);
+      }
+      none[face.name].assign(shear[face.name].size(), geometry::Vec3::Zero());
     }
-    none.assign(shear.size(), geometry::Vec3::Zero());
     write_field(time / "U", velocity, none);
     write_field(time / "pressureInPascal", pressure, wall_pressure);
     write_field(time / "wallShearStress",
@@ -117,12 +130,13 @@ struct Poiseuille {
 };
 
 /// A steady case that "has been run": 120 iterations.
-inline std::filesystem::path made_up_steady(const geometry::MixedMesh& mesh, const Poiseuille& flow) {
+inline std::filesystem::path made_up_steady(const geometry::MixedMesh& mesh, const Poiseuille& flow,
+                                            const std::map<std::string, double>& at_wall = {}) {
   const std::filesystem::path folder = testing::temporary_folder("made") / "flow";
   OpenfoamCaseOptions options;
   options.flow.flow_ml_s = flow.flow_ml_s;
   const OpenfoamCaseResult made = write_openfoam_case(mesh, options, folder);
-  flow.write(folder / "120", mesh, 1.0);
+  flow.write(folder / "120", mesh, 1.0, at_wall);
   core::write_file(folder / "log.simpleFoam", "Time = 120\n\nSIMPLE solution converged in 120 iterations\n");
   const std::string in = made.flow.inlets[0].name, out = made.flow.outlets[0].name;
   write_series(folder, "flow_" + in, {{119, 9.0}, {120, -1e-6 * flow.flow_ml_s}});

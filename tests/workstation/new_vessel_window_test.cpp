@@ -13,6 +13,7 @@
 
 #include "ostia/analysis/aha_segments.h"
 #include "ostia/imaging/image_file.h"
+#include "ostia/imaging/sampling.h"
 #include "ostia/session/image_digest.h"
 #include "ostia/session/machine_state.h"
 
@@ -21,6 +22,7 @@
 #include <QAction>
 #include <QApplication>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QTest>
 #include <algorithm>
 #include <cstdint>
@@ -132,6 +134,35 @@ TEST_F(SampleWindow, TheRightCoronaryComesBackByThreeClicksAsItWas) {
   RecordProperty("p90_um", static_cast<int>(1000.0 * off[off.size() * 9 / 10]));
   EXPECT_LE(off[off.size() / 2], 0.05);
   EXPECT_LE(off[off.size() * 9 / 10], 0.05) << "largest " << off.back();
+}
+
+TEST_F(SampleWindow, AWayUpTheAortaIsRefusedWithTheReasonAndNothingIsAdded) {
+  session::Workbench& bench = test.bench();
+  const auto axis = lumen::vessel(*bench.model(), named(bench, "RCA")).axis;
+  const imaging::ImageVolume& image = *bench.image().volume;
+  // Back from the ostium into the aorta, and up as far as it is bright.
+  constexpr double back_mm = 12.0, bright_hu = 250.0, least_up_mm = 15.0;
+  const Vec3 inside = axis->point(0.0) - back_mm * axis->frame(0.0).tangent;
+  Vec3 up = inside;
+  while (up.z() - inside.z() < 40.0 && imaging::sample(image, up + Vec3(0.0, 0.0, 1.0)) > bright_hu)
+    up.z() += 1.0;
+  ASSERT_GT(up.z() - inside.z(), least_up_mm);
+  const std::size_t vessels = bench.model()->tree.vessels.size();
+  test.window().findChild<QAction*>("tool.add_artery")->trigger();
+  ASSERT_EQ(click_at(test, axis->point(1.0)), 1);
+  ASSERT_EQ(click_at(test, up), 1);
+  QMessageBox* box = nullptr;
+  ASSERT_TRUE(wait_until([&] {
+    for (QWidget* widget : QApplication::topLevelWidgets())
+      if (auto* one = qobject_cast<QMessageBox*>(widget); one && one->isVisible()) box = one;
+    return box != nullptr;
+  }));
+  const QString said = box->text() + box->informativeText();
+  EXPECT_TRUE(said.contains("wider than a coronary artery")) << said.toStdString();
+  EXPECT_TRUE(said.contains("click a place in the vessel itself")) << said.toStdString();
+  box->close();
+  EXPECT_EQ(bench.model()->tree.vessels.size(), vessels);
+  EXPECT_FALSE(bench.undo()) << "there is nothing to take back";
 }
 
 TEST_F(SampleWindow, TheReadersWordOnOneVesselStandsWhileAnotherGoesAndComesBack) {

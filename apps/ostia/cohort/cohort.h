@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 namespace CLI {
 class App;
@@ -61,6 +62,28 @@ struct CohortCompareCommand {
 };
 ExitCode run_cohort_compare(const CohortCompareCommand& options, const core::TaskContext& task);
 
+struct CohortCrateCommand {
+  std::filesystem::path cohort;
+  std::string name, license;
+  bool json = false;
+};
+/// quality_failed where results were left out whose records do not say what made them.
+ExitCode run_cohort_crate(const CohortCrateCommand& options, const core::TaskContext& task);
+
+struct CohortReproduceCommand {
+  std::filesystem::path crate, output, private_folder;
+  std::size_t only = 0;
+  bool json = false;
+};
+/// quality_failed where a file differs or is missing.
+ExitCode run_cohort_reproduce(const CohortReproduceCommand& options, const core::TaskContext& task);
+
+struct CohortStatisticsCommand {
+  std::filesystem::path tables, reference, output;
+  bool json = false;
+};
+ExitCode run_cohort_statistics(const CohortStatisticsCommand& options, const core::TaskContext& task);
+
 struct CohortCommands {
   CohortInitCommand init;
   CohortStatusCommand status;
@@ -69,6 +92,9 @@ struct CohortCommands {
   CohortReviewCommand review;
   CohortServeCommand serve;
   CohortCompareCommand compare;
+  CohortCrateCommand crate;
+  CohortReproduceCommand reproduce;
+  CohortStatisticsCommand statistics;
 };
 
 /// Adds `cohort` with its subcommands.

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace ostia::app {
 namespace {
@@ -31,6 +32,44 @@ std::string counts_in_words(const std::array<std::int64_t, 256>& counts,
   return text.empty() ? "none but 0" : text;
 }
 
+/// How many voxels have each value, and the value that most have.
+struct ValueCounts {
+  explicit ValueCounts(const imaging::ImageVolume& image) : of(65536, 0) {
+    for (const std::int16_t value : image.voxels) ++of[static_cast<std::size_t>(value + 32768)];
+    const auto most = std::ranges::max_element(of);
+    commonest = static_cast<std::int16_t>(most - of.begin() - 32768);
+    negative = std::any_of(of.begin(), of.begin() + 32768, [](std::int64_t count) { return count > 0; });
+    dominates = 2 * *most > static_cast<std::int64_t>(image.voxels.size());
+  }
+  std::size_t different() const {
+    return of.size() - static_cast<std::size_t>(std::ranges::count(of, std::int64_t{0}));
+  }
+  std::vector<std::int64_t> of;
+  std::int16_t commonest = 0;
+  bool dominates = false, negative = false;
+};
+
+/// A CT of which nothing but its vessels was left. None where there are few values and none is negative:
+/// labels.
+std::optional<imaging::MaskVolume> vessels_on_background(const MaskInput& input,
+                                                         const core::TaskContext& task) {
+  constexpr std::size_t most_labels = 128;
+  if (pipeline::classify(input.file) != pipeline::SourceKind::image || holds_labels(input.file))
+    return std::nullopt;
+  const imaging::ImageVolume image = imaging::read_image(input.file, task).volume;
+  const ValueCounts counts(image);
+  if (counts.different() <= most_labels && !counts.negative) return std::nullopt;
+  if (!counts.dominates)
+    throw InvalidInput(own_name(input.file) + " has " + std::to_string(counts.different()) +
+                       " different values and none that most of its voxels have: it is an image, not a mask");
+  core::log_warning("its values are a CT's: all that is not " + std::to_string(counts.commonest) +
+                    ", as most of its voxels are, is taken as the mask's");
+  imaging::MaskVolume mask{image.geometry, {}};
+  mask.voxels.reserve(image.voxels.size());
+  for (const std::int16_t value : image.voxels) mask.voxels.push_back(value == counts.commonest ? 0 : 1);
+  return mask;
+}
+
 /// A segmentation and the images that it is said to be of: what both files say of patient and frame of
 /// reference.
 void require_same_origin(const MaskInput& input, const std::filesystem::path& series_file) {
@@ -47,6 +86,9 @@ void require_same_origin(const MaskInput& input, const std::filesystem::path& se
 
 imaging::MaskVolume read_asked_labels(const MaskInput& input, const core::TaskContext& task,
                                       const std::optional<imaging::Geometry>& grid) {
+  if (input.told && input.labels.empty())
+    if (std::optional<imaging::MaskVolume> vessels = vessels_on_background(input, task))
+      return std::move(*vessels);
   imaging::LoadedImage<std::uint8_t> loaded = dicom::read_labels(input.file, task, grid);
   for (const std::string& warning : loaded.header.warnings) core::log_warning(warning);
   if (input.labels.empty()) return std::move(loaded.volume);
@@ -66,6 +108,10 @@ imaging::MaskVolume read_asked_labels(const MaskInput& input, const core::TaskCo
   for (std::uint8_t& voxel : loaded.volume.voxels)
     if (!wanted[voxel]) voxel = 0;
   return std::move(loaded.volume);
+}
+
+bool may_be_mask(const imaging::ImageVolume& image) {
+  return ValueCounts(image).dominates;
 }
 
 MaskCase mask_case(const MaskInput& input, const coronary::MaskTreeOptions& options,

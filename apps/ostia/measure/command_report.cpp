@@ -8,6 +8,7 @@
 #include "ostia/core/log.h"
 #include "ostia/core/private_folder.h"
 #include "ostia/session/case_report.h"
+#include "ostia/session/doubts.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -148,6 +149,7 @@ ExitCode run_report(const ReportCommand& o, const core::TaskContext& task) {
   pipeline::require_free_folder(o.output);
   std::optional opened(session::CaseFile::open(o.input, session::OpenMode::read_only));
   options.image = opened->image();
+  options.certainty = session::kept_certainty(*opened);
   // Walls need no image: they are solved while it is read.
   core::BackgroundTask<analysis::SurfaceOfVessel> solving(
       [model = opened->model()](const core::TaskContext& beside) {

@@ -209,8 +209,8 @@ ExitCode mesh_the_mask(const MeshCommand& options, const core::TaskContext& task
   const auto refined = [&](const lumen::LumenModel& model, pipeline::ModelOptions& how) {
     apply_refinement(options, box_of(model.tree), how, task);
   };
-  return mesh_mask({options.input.input, options.of_mask.image, options.of_mask.labels}, wanted_of(options),
-                   refined, task);
+  return mesh_mask({options.input.input, options.of_mask.image, options.of_mask.labels, options.of_mask.mask},
+                   wanted_of(options), refined, task);
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 #include "commands.h"
 #include "flow/solver_case.h"
+#include "input/mask_input.h"
 #include "input/seeds.h"
 #include "mesh/ends_not_cut.h"
 #include "mesh/mesh_input.h"
 #include "mesh/mesh_vessels.h"
 #include "options/model_options.h"
 #include "output/kept_results.h"
+#include "output/refusal.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
@@ -41,6 +43,15 @@ void take_builtin(const ModelCommand& command, Job& job, const core::TaskContext
   job.options.branches = pipeline::branches_of(*job.builtin);
 }
 
+/// An image of vessels alone is likelier to be a mask than a CT without its branches.
+void ask_for_mask(const ModelCommand& command, const pipeline::Source& source) {
+  if (!source.image || !command.lumen.branches.empty() || !may_be_mask(*source.image)) return;
+  throw InvalidInput(
+      own_name(command.input.input) +
+      ": an image needs the branches to model, --branch x,y,z:x,y,z for each; if it is a mask of "
+      "vessels, say so by --mask");
+}
+
 Job job_of(const ModelCommand& command, const core::TaskContext& task) {
   Job job;
   apply(command.mesh, job.options);  // what does not go together is told before anything is read
@@ -50,6 +61,7 @@ Job job_of(const ModelCommand& command, const core::TaskContext& task) {
   } else {
     task.set_stage("reading");
     job.source = pipeline::load(command.input.input, source_options(command.input), task);
+    ask_for_mask(command, job.source);
     const imaging::Geometry* grid = job.source.image  ? &job.source.image->geometry
                                     : job.source.mask ? &job.source.mask->geometry
                                                       : nullptr;
@@ -134,8 +146,9 @@ ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
   if (command.builtin != command.input.input.empty())
     throw UsageError("`ostia model` needs either an input or --builtin");
   if (takes_vessels_of_mask(command))
-    return mesh_mask({command.input.input, command.of_mask.image, command.of_mask.labels},
-                     {command.mesh, command.input.coords, command.output, command.json}, {}, task);
+    return mesh_mask(
+        {command.input.input, command.of_mask.image, command.of_mask.labels, command.of_mask.mask},
+        {command.mesh, command.input.coords, command.output, command.json}, {}, task);
   pipeline::require_free_folder(command.output);
   Job job = job_of(command, task.sub(0.0, 0.1));
   if (const auto code = pipeline::already_done(command.output, job.key)) {

@@ -20,16 +20,18 @@ inline std::string own_name(const std::filesystem::path& file) {
 }
 
 /// Does `work`. What it refuses is told with the name of the file that it was about in front and, where the
-/// image or mask lacks what was looked for, with `way_out` behind. (Reading refuses by name already.)
+/// image or mask lacks what was looked for, with `way_out` behind; `besides` stands behind either. (Reading
+/// refuses by name already.)
 template <class Work>
-auto naming(const std::filesystem::path& file, const Work& work, const std::string& way_out = "") {
+auto naming(const std::filesystem::path& file, const Work& work, const std::string& way_out = "",
+            const std::string& besides = "") {
   const std::string name = own_name(file) + ": ";
   try {
     return work();
   } catch (const InvalidInput& error) {
-    throw InvalidInput(name + error.what());
+    throw InvalidInput(name + error.what() + besides);
   } catch (const GeometryError& error) {
-    throw GeometryError(name + error.what() + way_out);
+    throw GeometryError(name + error.what() + way_out + besides);
   }
 }
 

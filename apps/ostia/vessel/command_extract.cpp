@@ -85,7 +85,8 @@ session::FoundModel found_in(const std::filesystem::path& input, const imaging::
                              const coronary::ExtractOptions& options, const core::TaskContext& task) {
   return naming(
       input, [&] { return session::found_model(image, options, task); },
-      " (in the workstation, or `ostia model " + own_name(input) + " -o DIR --branch P:P`)");
+      " (in the workstation, or `ostia model " + own_name(input) + " -o DIR --branch P:P`)",
+      may_be_mask(image) ? "; if it is a mask of vessels, say so by --mask" : "");
 }
 
 const char* word(coronary::MaskEndChange::Kind kind) {
@@ -120,8 +121,8 @@ Json facts_of(const session::MaskModel& result) {
 ExitCode extract_mask(const ExtractCommand& o, NewCase& made, const core::TaskContext& task) {
   coronary::MaskTreeOptions options;
   options.labels.least_confidence = o.least_confidence;
-  const MaskCase found =
-      mask_case({o.input.input, o.of_mask.image, o.of_mask.labels}, options, task.sub(0.0, 0.98));
+  const MaskCase found = mask_case({o.input.input, o.of_mask.image, o.of_mask.labels, o.of_mask.mask},
+                                   options, task.sub(0.0, 0.98));
   for (const std::string& warning : found.model.found.found.warnings) core::log_warning(warning);
   task.throw_if_cancelled();
   made.make(found.model.found, found.image);

@@ -108,6 +108,29 @@ def approved_cases(cohort, pseudonym=None):
             if verdict == "ok" and manifest_of(cohort, REVIEWED, scan).get("outputs", {}).get("case.ostia") == made}
 
 
+def file_read_by(cohort, stage, pseudonym):
+    """The file in the cohort that a step reads; the first one reads none."""
+    if STAGES[stage][1] is None:
+        return None
+    return cohort / "inputs" / pseudonym / "scan.nrrd" if stage == REVIEWED else cohort / "cases" / pseudonym / "case.ostia"
+
+
+def forget_what_is_gone(cohort, pseudonym, approved):
+    """A step whose record names a result that is no more there is to be done again; likewise what was made of a case that a person has corrected since."""
+    for stage, (_, before) in STAGES.items():
+        record = cohort / "logs" / pseudonym / f"{stage}.json"
+        if not record.is_file():
+            continue
+        try:
+            if json.loads(record.read_text())["exit_code"] not in (0, 4):
+                continue
+        except (ValueError, KeyError, TypeError):
+            pass  # none of step.py's: it says nothing
+        made_of = manifest_of(cohort, stage, pseudonym).get("inputs")
+        if made_of is None or (before == REVIEWED and pseudonym in approved and approved[pseudonym] not in made_of.values()):
+            record.unlink()
+
+
 def last_error(lines):
     """The log is JSON, a line an entry, and holds no path."""
     message = ""
@@ -126,6 +149,7 @@ class Step:
         self.told, self.cohort = told, told.cohort
         self.folder, self.before = STAGES[told.stage]
         self.record = self.cohort / "logs" / told.pseudonym / f"{told.stage}.json"
+        self.chain = None  # nothing is run yet
 
     def made_before(self):
         """The record of the stage before says that it has a result."""
@@ -161,8 +185,8 @@ class Step:
         if self.told.needs_review and self.before == REVIEWED and self.told.pseudonym not in approved_cases(self.cohort, self.told.pseudonym):
             print(f"step.py: {self.told.pseudonym} waits for a person's OK", file=sys.stderr)
             return 1
-        chain, variables, source = self.values()
-        words = [self.told.ostia, "run", str(pathlib.Path(__file__).resolve().parent / "chains" / f"{chain}.json"),
+        self.chain, variables, source = self.values()
+        words = [self.told.ostia, "run", str(pathlib.Path(__file__).resolve().parent / "chains" / f"{self.chain}.json"),
                  "-o", str(self.cohort / self.folder / self.told.pseudonym), "--log", "json", "--progress", "none",
                  "--threads", str(self.told.threads)] + [f"--set={name}={value}" for name, value in variables.items()]
         begun = time.monotonic()
@@ -201,7 +225,7 @@ class Step:
     def keep(self, code, ended_by, message, seconds, digest):
         write_whole(self.record, json.dumps({"v": 1, "kind": "cohort step", "scan": self.told.pseudonym, "stage": self.told.stage, "exit_code": code,
                                              "signal": ended_by, "message": message, "seconds": round(seconds, 3), "attempt": self.told.attempt,
-                                             "input_sha256": digest}, indent=1) + "\n")
+                                             "input_sha256": digest, "chain": self.chain, "threads": self.told.threads}, indent=1) + "\n")
         return 0
 
 

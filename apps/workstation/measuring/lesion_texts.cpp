@@ -26,6 +26,8 @@ QString grade_text(const session::LesionRow& row) {
       return LesionTexts::tr("not graded: not evaluable");
     case GradeBar::limited:
       return LesionTexts::tr("not graded: limited");
+    case GradeBar::unlikely:
+      return LesionTexts::tr("not graded: hardly an artery");
     case GradeBar::image_unknown:
       return row.has_image ? QStringLiteral("?") : LesionTexts::tr("not graded: not checked");
   }

@@ -11,6 +11,7 @@
 #include "views/raster_image.h"
 
 #include "ostia/io/centerline_file.h"
+#include "ostia/session/doubts.h"
 
 #include <QDate>
 #include <QMessageBox>
@@ -83,6 +84,7 @@ void Reporting::ask_and_make(const fs::path& case_file) {
 session::ReportOptions Reporting::options_now() const {
   session::ReportOptions options;
   options.image = desk_.bench.session().file().image();
+  options.certainty = session::kept_certainty(desk_.bench.session().file());
   options.date = QDate::currentDate().toString(Qt::ISODate).toStdString();
   options.theta_deg = desk_.bench.theta_deg.get();
   options.level_hu = desk_.bench.grey.get().level_hu;

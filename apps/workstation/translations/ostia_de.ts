@@ -19,6 +19,10 @@
         <translation>nicht bewertet: eingeschränkt</translation>
     </message>
     <message>
+        <source>not graded: hardly an artery</source>
+        <translation>nicht bewertet: wohl keine Arterie</translation>
+    </message>
+    <message>
         <source>not graded: not checked</source>
         <translation>nicht bewertet: nicht geprüft</translation>
     </message>

@@ -211,9 +211,9 @@ void VesselFinder::another_artery(const session::OpenImage& image, const geometr
        end](const core::TaskContext& task) {
         const segmentation::MinimalPath way = way_between(*volume, from, end, task.sub(0.0, 0.5));
         NewVessel made{session::artery_of(way, session::unused_name(model.get())), way.warnings};
-        made.edit = session::with_wall_and_name(made.edit, *model, *volume, task.sub(0.5, 1.0));
         if (const auto wide = session::require_artery(way, *volume, ostium_mm))
           made.warnings.push_back(*wide);
+        made.edit = session::with_wall_and_name(made.edit, *model, *volume, task.sub(0.5, 1.0));
         return std::any(std::move(made));
       },
       [this](const std::any& found) { take(found); },

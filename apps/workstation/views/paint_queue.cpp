@@ -12,7 +12,6 @@ namespace {
 
 constexpr qint64 longest_wait_ms = 60;        // of a 2D view
 constexpr qint64 longest_last_wait_ms = 110;  // of the tree, which may lag behind
-constexpr qint64 longest_serving_ms = 15;     // of overdue views, before the hand is heard again
 
 }  // namespace
 
@@ -41,15 +40,13 @@ void PaintQueue::add_last(QObject* owner, std::function<void()> work) {
   timer_.start();
 }
 
-// Not all in one event, which would block the window for as long as they take together.
+// One in an event: the hand waits for it.
 void PaintQueue::serve_overdue() {
   const bool views = !views_.isEmpty() && views_waiting_.elapsed() > longest_wait_ms;
   const bool last = !last_.isEmpty() && last_waiting_.elapsed() > longest_last_wait_ms;
   const bool views_turn = views && !(last && views_were_served_);
-  QElapsedTimer served;
-  served.start();
   if (views_turn)
-    while (served.elapsed() < longest_serving_ms && next_view()) continue;
+    next_view();
   else if (last)
     next_last();
   if (views || last) views_were_served_ = views_turn;

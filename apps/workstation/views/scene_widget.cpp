@@ -20,6 +20,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ostia::workstation {
 namespace {
@@ -152,25 +153,15 @@ void SceneWidget::refresh() {
     phase_stale_ = false;
     wall_stale_ = true;  // back where it was
   }
+  // The window is to answer between making a wall, taking it into the scene and drawing it. One that has been
+  // made is drawn, though the next edit be there already, unless the vessels are others.
   if (wall_stale_ && (!wall_unseen_ || styles_stale_)) {
-    wall_stale_ = false;
-    wall_.reset();
-    if (bench_.has_case()) {
-      wall_ = std::make_shared<const geometry::TriMesh>(bench_.session().live().wall(screen_cell_mm));
-      scene_->set_wall(wall_, *bench_.model());
-      paint_wall();
-    } else {
-      scene_->clear_wall();
-    }
-    // The window is to answer between making a wall and drawing it; one that has been made is drawn, though
-    // the next edit be there already, unless the vessels are others.
-    wall_unseen_ = true;
-    if (fit_wanted_) {  // another case: much is new
-      scene_->show_front(false);
-      refresh_styles();
-    }
-    request_render();
-    return;
+    make_wall();
+    return request_render();
+  }
+  if (made_wall_) {
+    take_wall();
+    return request_render();
   }
   if (phase_stale_) refresh_phase();
   if (styles_stale_) refresh_styles();
@@ -189,6 +180,29 @@ void SceneWidget::refresh() {
   // The CT is drawn finer and finer while nothing else is to be done.
   if (buttons_ == Qt::NoButton) refining_.start();
   FrameLog::instance().painted(objectName(), static_cast<double>(clock.nsecsElapsed()) / 1e6);
+}
+
+void SceneWidget::make_wall() {
+  wall_stale_ = false;
+  wall_unseen_ = true;
+  made_wall_.reset();
+  if (bench_.has_case()) {
+    made_of_ = bench_.session().file().model();
+    made_wall_ = std::make_shared<const geometry::TriMesh>(bench_.session().live().wall(screen_cell_mm));
+  } else {
+    wall_.reset();
+    scene_->clear_wall();
+    if (fit_wanted_) scene_->show_front(false);
+  }
+}
+
+void SceneWidget::take_wall() {
+  wall_ = std::exchange(made_wall_, nullptr);
+  scene_->set_wall(wall_, *std::exchange(made_of_, nullptr));
+  paint_wall();
+  if (!fit_wanted_) return;
+  scene_->show_front(false);  // another case: much is new
+  refresh_styles();
 }
 
 QColor SceneWidget::color_of(std::int32_t vessel) const {

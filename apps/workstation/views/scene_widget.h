@@ -80,6 +80,8 @@ class SceneWidget final : public QWidget {
 
  private:
   void refresh();
+  void make_wall();
+  void take_wall();
   void paint_wall();
   void refresh_phase();
   void refresh_styles();
@@ -109,8 +111,9 @@ class SceneWidget final : public QWidget {
   bool wall_stale_ = true, styles_stale_ = true, cursor_stale_ = true, marks_stale_ = true,
        fit_wanted_ = true, phase_stale_ = false;
   view::VolumeMode volume_mode_ = view::VolumeMode::off;
-  bool wall_unseen_ = false;  // it was made and not drawn yet
-  std::shared_ptr<const geometry::TriMesh> wall_;
+  bool wall_unseen_ = false;                                   // it was made and not drawn yet
+  std::shared_ptr<const geometry::TriMesh> wall_, made_wall_;  // in the scene; made for it since
+  std::shared_ptr<const lumen::LumenModel> made_of_;
   std::function<void(const geometry::TriMesh&)> wall_painter_, top_painter_;
   QPointF pressed_, last_;
   Qt::MouseButtons buttons_;

@@ -11,6 +11,7 @@
 #include "ostia/core/log.h"
 #include "ostia/phantom/phantom_case.h"
 #include "ostia/session/case_report.h"
+#include "ostia/session/doubts.h"
 #include "ostia/session/evaluability.h"
 #include "ostia/session/label_volume.h"
 #include "ostia/session/plaque_sampling.h"
@@ -69,8 +70,8 @@ OSTIA_OPTIONS(HighRiskOptions, (least_low_mm3, least_remodelling, spot_mm, least
 OSTIA_OPTIONS(ReportOptions,
               (date, walls, least_graded_mm, picture_percent, theta_deg, level_hu, window_hu, language, form,
                agatston, impression, high_risk),
-              (image, profile, reference, stenosis, medina, plaque_stretches, evaluability,
-               technique))  // the case's; of the analyses; of the image
+              (image, profile, reference, stenosis, medina, plaque_stretches, evaluability, technique,
+               certainty))  // the case's; of the analyses; of the image
 OSTIA_FIGURES(LabelCount, (value, name, voxels), ())
 OSTIA_FIGURES(ScanQuality,
               (voxel_mm, noise_hu, lumen_hu, contrast_hu, cnr, blur_mm, evaluable_share, limited_share,
@@ -227,6 +228,7 @@ struct OfCase {
 OfCase read_case(Case& file, bool with_image, ReportOptions& how) {
   return file.with_file([&](session::CaseFile& f) {
     how.image = f.image();
+    how.certainty = session::kept_certainty(f);
     return OfCase{f.model(), f.annotations(), f.journal(), session::report_job(f, with_image, how)};
   });
 }

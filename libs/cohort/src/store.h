@@ -53,6 +53,8 @@ class Query {
   /// NaN where there is none; `with` writes NaN as none.
   double real_or_nan(int column) const;
   std::string text(int column) const;
+  int columns() const { return sqlite3_column_count(handle_); }
+  int type(int column) const { return sqlite3_column_type(handle_, column); }  ///< SQLITE_INTEGER, ...
 
  private:
   void bind(int at, std::int64_t value) { store_->check(sqlite3_bind_int64(handle_, at, value)); }

@@ -144,7 +144,7 @@ std::string tracts_text(const VesselTree& tree, const std::vector<AlongVessels>&
   add_array(cells, "Length", columns.length);
   add_array(cells, "Tortuosity", columns.tortuosity);
   add_tree_fields(tree, *data);
-  return polydata_text(*data);
+  return polydata_text(*data, Packing::none);
 }
 
 }  // namespace ostia::io

@@ -1,6 +1,7 @@
 // Abaqus' input file: nodes, elements, and for each face a node set and a surface of element sides
 // (Abaqus Analysis User's Guide, "Element Library": C3D4, C3D10, C3D6 and the numbers of their sides).
 
+#include "mesh/abaqus_end.h"
 #include "mesh/formats.h"
 #include "mesh/text.h"
 
@@ -88,7 +89,7 @@ void put_surface(TextFile& out, const PreparedMesh& mesh, std::size_t f) {
 
 void write_abaqus(const PreparedMesh& mesh, const std::filesystem::path& file) {
   TextFile out(file);
-  out << "*HEADING\n" << mesh.title << ", axes LPS, unit mm\n";
+  out << "*HEADING\n" << mesh.title << ", axes LPS, unit mm\n** " << abaqus_end_announced << '\n';
   for (std::size_t f = 0; f < mesh.names.size(); ++f)
     out << "** face " << mesh.mesh.faces[f].id << ' ' << mesh.names[f] << '\n';
   out << "*NODE\n";
@@ -105,6 +106,7 @@ void write_abaqus(const PreparedMesh& mesh, const std::filesystem::path& file) {
     put_node_set(out, mesh, f);
     put_surface(out, mesh, f);
   }
+  out << "** " << abaqus_end << '\n';
   out.close();
 }
 

@@ -1,6 +1,7 @@
 // Abaqus' input file, read: nodes, elements C3D4, C3D10 and C3D6, element sets, and surfaces of element
 // sides.
 
+#include "mesh/abaqus_end.h"
 #include "mesh/builder.h"
 #include "mesh/readers.h"
 #include "mesh/tagged_sides.h"
@@ -92,6 +93,7 @@ class AbaqusFile {
       }
     }
     require_no_element_begun();
+    if (end_announced_ && !ended_) refuse(path_, "it is cut short: its last line is missing; copy it again");
     LayeredMesh read = mesh_.finish({});
     name_faces(read.mesh);
     return read;
@@ -100,6 +102,9 @@ class AbaqusFile {
  private:
   /// "** face 2 inlet_a": the ids that the format has no place for.
   void take_comment(std::string_view line) {
+    const std::string_view text = trimmed_word(line.substr(2));
+    end_announced_ = end_announced_ || text == abaqus_end_announced;
+    ended_ = ended_ || text == abaqus_end;
     Words words(line.substr(2));
     if (words.next() != "face") return;
     const std::optional<std::int32_t> id = number<std::int32_t>(words.next());
@@ -238,6 +243,7 @@ class AbaqusFile {
   std::map<std::string, std::vector<Range>> sets_;
   std::map<std::string, std::int32_t> ids_;
   std::vector<Surface> surfaces_;
+  bool end_announced_ = false, ended_ = false;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Exodus II, read: blocks of tetrahedra and wedges, and the side sets that name the boundary.
 
 #include "mesh/builder.h"
+#include "mesh/classic_netcdf.h"
 #include "mesh/readers.h"
 #include "mesh/tagged_sides.h"
 #include "surface_formats.h"
@@ -17,6 +18,7 @@ namespace {
 class NetCdfInput {
  public:
   explicit NetCdfInput(const fs::path& path) : path_(path) {
+    require_whole_netcdf(path);
     require(nc_open(path.c_str(), NC_NOWRITE, &file_));
   }
   ~NetCdfInput() { nc_close(file_); }

@@ -61,9 +61,11 @@ class GmshFile {
       if (section == "$PhysicalNames") read_names();
       if (section == "$Entities") read_entities();
       if (section == "$Nodes") read_nodes();
-      if (section == "$Elements") read_elements();
+      if (section == "$Elements") read_elements(), open_ = true;
+      if (section == "$EndElements") open_ = false;
     }
     if (version_ == 0.0) refuse(path_, "it is no Gmsh mesh (no $MeshFormat)");
+    if (open_) refuse(path_, "it is cut short: $EndElements is missing; copy it again");
     std::vector<geometry::Face> faces;
     const std::vector<std::int32_t> ids = mesh_.face_ids();
     for (const std::int32_t id : std::set<std::int32_t>(ids.begin(), ids.end())) {
@@ -220,6 +222,7 @@ class GmshFile {
   Words words_;
   MeshBuilder mesh_;
   double version_ = 0.0;
+  bool open_ = false;  ///< elements have begun, and their end has not come
   std::map<std::int32_t, std::string> names_;
   std::set<std::int32_t> layers_;                                  ///< groups of tetrahedra of layers
   std::map<std::pair<int, std::int32_t>, std::int32_t> group_of_;  ///< by dimension and number

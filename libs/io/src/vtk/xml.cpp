@@ -57,6 +57,8 @@ void check_xml(const fs::path& path, std::string_view type) {
     refuse(path, "it declares XML entities, which no VTK file needs");
   }
   if (header.find("<VTKFile") == std::string_view::npos) refuse(path, "it is no VTK XML file (no <VTKFile>)");
+  if (content.rfind("</VTKFile>") == std::string::npos)
+    refuse(path, "it is cut short: its last line, </VTKFile>, is missing; copy it again");
   if (header.find("<" + std::string(type)) == std::string_view::npos)
     refuse(path, "it holds no " + std::string(type));
   for (const std::string_view attribute :
@@ -146,14 +148,17 @@ std::vector<geometry::Face> faces_by_order(vtkStringArray& names, const std::set
 }
 
 template <class Writer, class Data>
-std::string text_of(Data& data) {
+std::string text_of(Data& data, Packing packing) {
   add_text(data, "Axes", "LPS");
   add_text(data, "Unit", "mm");
   vtkNew<Writer> writer;
   writer->SetInputData(&data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
+  if (packing == Packing::deflate)
+    writer->SetCompressorTypeToZLib();
+  else
+    writer->SetCompressorTypeToNone();
   writer->WriteToOutputStringOn();
   if (writer->Write() != 1) throw std::bad_alloc();  // in memory nothing else can fail
   return writer->GetOutputString();
@@ -189,11 +194,11 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& path) {
   return data;
 }
 
-std::string polydata_text(vtkPolyData& data) {
-  return text_of<vtkXMLPolyDataWriter>(data);
+std::string polydata_text(vtkPolyData& data, Packing packing) {
+  return text_of<vtkXMLPolyDataWriter>(data, packing);
 }
 std::string grid_text(vtkUnstructuredGrid& data) {
-  return text_of<vtkXMLUnstructuredGridWriter>(data);
+  return text_of<vtkXMLUnstructuredGridWriter>(data, Packing::deflate);
 }
 
 vtkSmartPointer<vtkPoints> to_vtk(const std::vector<geometry::Vec3>& points) {

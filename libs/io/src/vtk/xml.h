@@ -20,8 +20,11 @@ namespace ostia::io {
 vtkSmartPointer<vtkPolyData> read_polydata(const std::filesystem::path& path);
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path);
 
-/// The file's content: XML with compressed appended data. Axes and unit are added as field data.
-std::string polydata_text(vtkPolyData& data);
+/// How a file's arrays are packed. Coordinates along smooth lines shrink by a sixth, and that takes longer
+/// than to write them as they are.
+enum class Packing { deflate, none };
+/// The file's content: XML with appended data. Axes and unit are added as field data.
+std::string polydata_text(vtkPolyData& data, Packing packing = Packing::deflate);
 std::string grid_text(vtkUnstructuredGrid& data);
 
 vtkSmartPointer<vtkPoints> to_vtk(const std::vector<geometry::Vec3>& points);

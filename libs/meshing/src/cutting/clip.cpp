@@ -46,6 +46,7 @@ namespace {
 
 struct OpenLoop {
   std::vector<std::int32_t> vertices;
+  std::vector<Vec3> points;
   Vec3 centroid = Vec3::Zero();
   Vec3 normal = Vec3::Zero();  ///< out of the lumen
   double deviation = 0.0;      ///< of its points from their plane
@@ -57,6 +58,7 @@ std::vector<OpenLoop> open_loops(const geometry::TriMesh& mesh) {
   for (const BorderCurve& curve : border_curves(EditMesh(mesh))) {
     OpenLoop loop;
     loop.vertices = curve.vertices;
+    loop.points = curve.points;
     for (const Vec3& p : curve.points) loop.centroid += p / static_cast<double>(curve.points.size());
     loop.normal = -loop_normal(curve.points).normalized();
     for (const Vec3& p : curve.points)
@@ -159,6 +161,17 @@ std::string end_words(const EndPlane& plane) {
          plane.vessel;
 }
 
+/// An open end whose rim cannot be closed as it is: it is cut a little inside.
+void cut_beside_rim(ClippedSurface& result, std::size_t i, const geometry::VesselTree& tree,
+                    double inset_radii) {
+  constexpr double beside_radii = 0.3;
+  EndPlane& plane = result.ends[i].plane;
+  plane.origin = end_planes(tree, std::min(inset_radii, beside_radii))[i].origin;
+  result.warnings.push_back(end_words(plane) + ": its rim crosses itself, so it is cut " +
+                            core::fixed_text((plane.origin - end_position(tree, plane)).norm(), 2) +
+                            " mm farther inside");
+}
+
 /// The inlet is called as its cap was; outlets have the names of their vessels already.
 void name_inlet(ClippedEnd& end, const OpenLoop& loop, const ClipOptions& options) {
   const GivenEnd* given = given_at(options, loop);
@@ -226,12 +239,18 @@ ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselT
   // Ends that are open already keep their loops, made exactly flat; the search is on the input, before any
   // cut.
   std::vector<OpenLoop> loops = open_loops(lumen);
-  for (ClippedEnd& end : result.ends) {
+  for (std::size_t i = 0; i < result.ends.size(); ++i) {
+    ClippedEnd& end = result.ends[i];
     if (placed_plane(options, end.plane)) continue;
     OpenLoop* loop = flat_end(loops, end.plane, end_position(tree, end.plane), options);
     if (!loop) continue;
-    loop->used = end.was_open = true;
     name_inlet(end, *loop, options);
+    loop->used = true;
+    if (crosses_itself(loop->points)) {
+      cut_beside_rim(result, i, tree, options.inset_radii);
+      continue;
+    }
+    end.was_open = true;
     end.plane.origin = loop->centroid;
     end.plane.normal = loop->normal;
     for (const std::int32_t v : loop->vertices) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <set>
@@ -25,10 +26,74 @@ using geometry::Vec3;
 constexpr double smooth_deg = 12.0;
 constexpr int rays_across = 16;
 
+/// Slim triangles, whose normals are mostly rounding or what little their rim is uneven, part no smooth
+/// region: what lies beyond them on either side says whether it goes on.
+class SlimTriangles {
+ public:
+  explicit SlimTriangles(const Look& look) : look_(look) {
+    constexpr double slim = 0.03;  // height over the longest edge
+    for (std::size_t k = 0; k < look.edges.size(); ++k)
+      for (const std::int32_t t : {look.edges[k].left, look.edges[k].right})
+        if (t >= 0 && doubled_area(look.mesh, t).norm() < slim * squared_length(k)) sides_[t];
+    if (sides_.empty()) return;
+    for (std::size_t k = 0; k < look.edges.size(); ++k)
+      for (const std::int32_t t : {look.edges[k].left, look.edges[k].right})
+        if (const auto found = sides_.find(t); found != sides_.end()) found->second.push_back(k);
+    for (auto& [t, edges] : sides_)
+      std::ranges::sort(edges, std::greater{}, [&](std::size_t k) { return squared_length(k); });
+  }
+
+  /// For each of Look::edges whether the region goes on across it, by what lies beyond slim triangles.
+  std::vector<std::uint8_t> bridged() const {
+    std::vector<std::uint8_t> result(look_.edges.size(), 0);
+    std::vector<std::size_t> crossed;
+    for (const auto& [t, edges] : sides_) {
+      if (edges.size() != 3) continue;
+      crossed.clear();
+      const std::int32_t one = beyond(t, edges[0], crossed), other = beyond(t, edges[1], crossed);
+      if (one < 0 || other < 0 || look_.angle_deg({0, 0, one, other}) >= smooth_deg) continue;
+      for (const std::size_t k : crossed) result[k] = 1;
+    }
+    return result;
+  }
+
+ private:
+  double squared_length(std::size_t k) const {
+    const SharedEdge& e = look_.edges[k];
+    return (look_.mesh.points[static_cast<std::size_t>(e.a)] -
+            look_.mesh.points[static_cast<std::size_t>(e.b)])
+        .squaredNorm();
+  }
+
+  /// The first triangle that is not slim, out of `t` across its long edge `k` and across long edges from
+  /// there on; -1 where there is none near by. Appends the edges on the way.
+  std::int32_t beyond(std::int32_t t, std::size_t k, std::vector<std::size_t>& crossed) const {
+    constexpr int most_steps = 8;
+    for (int step = 0; step < most_steps; ++step) {
+      crossed.push_back(k);
+      t = look_.edges[k].left == t ? look_.edges[k].right : look_.edges[k].left;
+      if (t < 0) return -1;
+      const auto slim = sides_.find(t);
+      if (slim == sides_.end()) return t;
+      const std::vector<std::size_t>& edges = slim->second;
+      if (edges.size() != 3 || edges[2] == k) return -1;
+      k = edges[0] == k ? edges[1] : edges[0];
+    }
+    return -1;
+  }
+
+  const Look& look_;
+  std::map<std::int32_t, std::vector<std::size_t>> sides_;  // of each its edges, the longest first
+};
+
 std::vector<Region> caps_by_shape(const Look& look, const FlatCapOptions& options) {
   std::vector<Region> caps;
   std::optional<geometry::AabbTree> tree;
-  for (Region& region : regions(look, [&](const SharedEdge& e) { return look.angle_deg(e) < smooth_deg; })) {
+  const std::vector<std::uint8_t> bridged = SlimTriangles(look).bridged();
+  const auto smooth = [&](const SharedEdge& e) {
+    return bridged[static_cast<std::size_t>(&e - look.edges.data())] != 0 || look.angle_deg(e) < smooth_deg;
+  };
+  for (Region& region : regions(look, smooth)) {
     measure(look, region);
     if (!is_flat(region, options) || region.rim_deg < options.least_rim_deg) continue;
     if (!tree) tree.emplace(look.mesh);

@@ -71,7 +71,7 @@ double cross(const Vec2& u, const Vec2& v) {
   return u.x() * v.y() - u.y() * v.x();
 }
 
-void refuse_crossing(const std::vector<Vec2>& loop, const std::string& name) {
+bool has_crossing(const std::vector<Vec2>& loop) {
   const std::size_t n = loop.size();
   auto opposite = [](const Vec2& a, const Vec2& b, const Vec2& p, const Vec2& q) {
     return cross(b - a, p - a) * cross(b - a, q - a) < 0.0;
@@ -79,10 +79,25 @@ void refuse_crossing(const std::vector<Vec2>& loop, const std::string& name) {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 2; j < n; ++j) {
       const Vec2 &a = loop[i], &b = loop[i + 1], &p = loop[j], &q = loop[(j + 1) % n];
-      if (opposite(a, b, p, q) && opposite(p, q, a, b))
-        throw GeometryError("the border of " + name +
-                            " crosses itself in its plane; clip the end farther inside");
+      if (opposite(a, b, p, q) && opposite(p, q, a, b)) return true;
     }
+  return false;
+}
+
+/// A loop in the plane through the mean of its points.
+struct LaidLoop {
+  Vec3 origin = Vec3::Zero(), u, w;
+  std::vector<Vec2> flat;
+};
+
+LaidLoop laid(const std::vector<Vec3>& loop, const Vec3& normal) {
+  LaidLoop result;
+  for (const Vec3& p : loop) result.origin += p / static_cast<double>(loop.size());
+  result.u = normal.unitOrthogonal();
+  result.w = normal.cross(result.u);
+  for (const Vec3& p : loop)
+    result.flat.emplace_back((p - result.origin).dot(result.u), (p - result.origin).dot(result.w));
+  return result;
 }
 
 std::vector<geometry::Triangle> delaunay(const std::vector<Vec2>& loop, const std::vector<Vec2>& inner,
@@ -294,6 +309,11 @@ std::vector<Vec3> loop_points(const geometry::TriMesh& mesh, const std::vector<s
   return points;
 }
 
+bool crosses_itself(const std::vector<Vec3>& loop) {
+  const Vec3 normal = loop_normal(loop).normalized();
+  return !(normal.squaredNorm() > 0.5) || has_crossing(laid(loop, normal).flat);
+}
+
 double mean_edge(const std::vector<Vec3>& loop) {
   double sum = 0.0;
   for (std::size_t i = 0; i < loop.size(); ++i) sum += (loop[(i + 1) % loop.size()] - loop[i]).norm();
@@ -305,12 +325,10 @@ FlatPatch triangulate_flat(const std::vector<Vec3>& loop, double edge_mm, const 
   if (loop.size() < 3) throw GeometryError("the border of " + name + " has fewer than three points");
   const Vec3 normal = loop_normal(loop).normalized();
   if (!(normal.squaredNorm() > 0.5)) throw GeometryError("the border of " + name + " encloses no area");
-  Vec3 origin = Vec3::Zero();
-  for (const Vec3& p : loop) origin += p / static_cast<double>(loop.size());
-  const Vec3 u = normal.unitOrthogonal(), w = normal.cross(u);
-  std::vector<Vec2> flat;
-  for (const Vec3& p : loop) flat.emplace_back((p - origin).dot(u), (p - origin).dot(w));
-  refuse_crossing(flat, name);
+  const auto [origin, u, w, flat] = laid(loop, normal);
+  if (has_crossing(flat))
+    throw GeometryError("the border of " + name +
+                        " crosses itself in its plane; clip the end farther inside");
   // A border much finer than its cap is wide need not make the whole cap as fine.
   constexpr double most_across = 100.0;
   const double least_edge_mm = std::sqrt(0.5 * loop_normal(loop).norm()) / most_across;

@@ -22,6 +22,9 @@ struct FlatPatch {
 FlatPatch triangulate_flat(const std::vector<geometry::Vec3>& loop, double edge_mm, const std::string& name,
                            double good_angle_deg = 0.0);
 
+/// Whether a loop crosses itself when it is laid into its plane, where triangulate_flat refuses it.
+bool crosses_itself(const std::vector<geometry::Vec3>& loop);
+
 /// Normal of a loop by Newell's formula, as long as twice its area.
 geometry::Vec3 loop_normal(const std::vector<geometry::Vec3>& loop);
 double mean_edge(const std::vector<geometry::Vec3>& loop);

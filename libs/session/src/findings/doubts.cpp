@@ -140,6 +140,24 @@ std::vector<DoubtfulPlace> doubtful_places(const std::vector<VesselCertainty>& c
   return places;
 }
 
+std::map<std::int32_t, double> unlikely_vessels(const std::vector<VesselCertainty>& certainty,
+                                                const lumen::LumenModel& model,
+                                                const Annotations& annotations, double below) {
+  std::map<std::int32_t, double> unlikely;
+  for (const VesselCertainty& found : certainty) {
+    if (found.probability >= below) continue;
+    const VesselMark* mark = find_mark(annotations, found.vessel);
+    if (mark && mark->checked) continue;
+    const bool as_found =
+        std::any_of(found.pieces.begin(), found.pieces.end(), [&](const VesselPiece& piece) {
+          const std::optional<OnAxis> at = on_axis(model, piece.place);
+          return at && at->vessel == found.vessel;
+        });
+    if (as_found) unlikely[found.vessel] = found.probability;
+  }
+  return unlikely;
+}
+
 std::string doubt_text(const VesselCertainty& certainty, double below) {
   const VesselPiece* const least = least_sure_of(certainty);
   if (!least || std::min(certainty.probability, least->probability) >= below) return {};

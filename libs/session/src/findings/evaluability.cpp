@@ -163,17 +163,23 @@ ScanQuality scan_quality(const imaging::Geometry& grid, double noise_hu,
   return out;
 }
 
-std::vector<std::string> arteries_not_found(const lumen::LumenModel& model) {
+std::vector<std::string> arteries_not_found(const lumen::LumenModel& model,
+                                            const std::map<std::int32_t, double>& unlikely) {
   std::set<int> segments;
   for (const analysis::VesselSegment& one : analysis::segments_of(model))
-    if (one.aha) segments.insert(one.aha->number);
+    if (one.aha && !unlikely.count(one.vessel)) segments.insert(one.aha->number);
   const auto any = [&](std::initializer_list<int> numbers) {
     return std::any_of(numbers.begin(), numbers.end(), [&](int n) { return segments.count(n) > 0; });
   };
-  std::string perhaps;
+  std::string unnamed, hardly;
   for (const geometry::Vessel& vessel : model.tree.vessels)
-    if (analysis::main_vessel_of(vessel.name).empty()) perhaps += (perhaps.empty() ? "" : ", ") + vessel.name;
-  if (!perhaps.empty()) perhaps = ", or among the vessels without a coronary artery's name (" + perhaps + ")";
+    if (const auto found = unlikely.find(vessel.id); found != unlikely.end())
+      hardly += (hardly.empty() ? "" : ", ") + vessel.name + " " + core::shown_text(found->second, 2);
+    else if (analysis::main_vessel_of(vessel.name).empty())
+      unnamed += (unnamed.empty() ? "" : ", ") + vessel.name;
+  std::string perhaps;
+  if (!unnamed.empty()) perhaps = ", or among the vessels without a coronary artery's name (" + unnamed + ")";
+  if (!hardly.empty()) perhaps += "; what was found is hardly an artery (probability of " + hardly + ")";
   const bool lad = any({6, 7, 8}), lcx = any({11, 13}), rca = any({1, 2, 3});
   std::vector<std::string> out;
   const auto add = [&](const std::string& name) { out.push_back(name + ": not found" + perhaps); };

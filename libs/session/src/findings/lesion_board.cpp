@@ -3,6 +3,7 @@
 #include "known_vessels.h"
 
 #include "ostia/analysis/aha_segments.h"
+#include "ostia/session/doubts.h"
 
 #include <algorithm>
 #include <utility>
@@ -23,11 +24,20 @@ LesionBoard::LesionBoard(Workbench& bench, EvaluabilityBoard& evaluability, std:
       if (const auto found = known_.find(one.vessel); found != known_.end()) found->second.stale = true;
     touch();
   }));
-  own_.push_back(bench.case_changed.observe([this] { drop(); }));
+  own_.push_back(bench.case_changed.observe([this] {
+    read_certainty();
+    drop();
+  }));
   own_.push_back(bench.image_changed.observe([this] { drop(); }));
   own_.push_back(bench.annotations_changed.observe([this] { touch(); }));
   own_.push_back(bench.stenoses_changed.observe([this] { touch(); }));
   own_.push_back(evaluability.changed.observe([this] { touch(); }));
+  read_certainty();
+}
+
+void LesionBoard::read_certainty() {
+  certainty_ =
+      bench_.has_case() ? kept_certainty(bench_.session().file()) : std::vector<coronary::VesselCertainty>();
 }
 
 void LesionBoard::drop() {
@@ -48,7 +58,10 @@ const std::vector<LesionRow>& LesionBoard::rows() {
   if (!bench_.has_case()) return rows_;
   finding_ = true;
   try {
-    for (const geometry::Vessel& vessel : bench_.model()->tree.vessels) add_rows(vessel);
+    const std::map<std::int32_t, double> unlikely =
+        unlikely_vessels(certainty_, *bench_.model(), *bench_.session().file().annotations());
+    for (const geometry::Vessel& vessel : bench_.model()->tree.vessels)
+      add_rows(vessel, unlikely.count(vessel.id) > 0);
     const std::vector<analysis::VesselSegment> segments = analysis::segments_of(*bench_.model());
     for (LesionRow& row : rows_)
       if (const auto* segment = analysis::segment_at(segments, row.vessel, row.lesion.stenosis.throat_mm))
@@ -61,7 +74,7 @@ const std::vector<LesionRow>& LesionBoard::rows() {
   return rows_;
 }
 
-void LesionBoard::add_rows(const geometry::Vessel& vessel) {
+void LesionBoard::add_rows(const geometry::Vessel& vessel, bool unlikely) {
   if (bench_.profile_work(vessel.id)) return;  // nobody waits for that here
   const analysis::LumenProfile* profile = bench_.profile(vessel.id);
   const analysis::ReferenceLine* reference = bench_.reference(vessel.id);
@@ -81,6 +94,7 @@ void LesionBoard::add_rows(const geometry::Vessel& vessel) {
     row.vessel_name = vessel.name;
     row.evaluable = analysis::worst_within(stretches, place.from_mm, place.to_mm);
     row.checked = mark && mark->checked;
+    row.unlikely = unlikely;
     row.has_image = bench_.image().volume != nullptr;
     if (const LesionWord* said = word_on(mark, place.from_mm, place.to_mm))
       row.state = said->state, row.comment = said->comment;

@@ -9,6 +9,7 @@
 #include "ostia/core/quantity_text.h"
 #include "ostia/core/text.h"
 #include "ostia/core/version.h"
+#include "ostia/session/doubts.h"
 #include "ostia/session/lesion_board.h"
 
 #include <algorithm>
@@ -204,7 +205,12 @@ class Maker {
   }
 
   void grade() {
-    report_.not_found = arteries_not_found(model_);
+    const std::map<std::int32_t, double> unlikely =
+        unlikely_vessels(report_.options.certainty, model_, annotations_);
+    for (ReportVessel& vessel : report_.vessels)
+      if (const auto found = unlikely.find(vessel.id); found != unlikely.end())
+        vessel.unlikely = found->second;
+    report_.not_found = arteries_not_found(model_, unlikely);
     classify_bifurcations(report_);
     grade_report(report_);
     find_high_risk_plaque(report_);

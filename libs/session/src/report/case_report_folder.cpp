@@ -115,6 +115,11 @@ pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportO
   if (o.form != ReportTemplate::full) parameters["template"] = to_string(o.form);
   if (o.agatston) parameters["agatston"] = *o.agatston;
   if (!o.impression.empty()) parameters["impression"] = core::sha256(o.impression);
+  if (!o.certainty.empty()) {
+    parameters["certainty"] = Json::array();
+    for (const coronary::VesselCertainty& one : o.certainty)
+      parameters["certainty"].push_back({one.vessel, one.probability});
+  }
   const analysis::HighRiskOptions& h = o.high_risk;
   parameters["high_risk"] = {h.least_low_mm3,  h.least_remodelling, h.spot_mm,
                              h.least_spot_mm3, h.ring_deg,          h.ring_mm};

@@ -3,6 +3,7 @@
 #include "report/case_report_text.h"
 
 #include "ostia/core/quantity_text.h"
+#include "ostia/core/text.h"
 #include "ostia/session/lesion_grading.h"
 
 #include <algorithm>
@@ -30,8 +31,8 @@ bool thin(const CaseReport& report, const ReportStenosis& one) {
 }
 
 /// Why a lesion cannot be judged; empty where it can.
-std::string objection(const ReportStenosis& one) {
-  switch (grade_bar(one.state, one.checked, one.evaluable)) {
+std::string objection(const ReportStenosis& one, const ReportVessel& vessel) {
+  switch (grade_bar(one.state, one.checked, one.evaluable, vessel.unlikely.has_value())) {
     case GradeBar::none:
       return {};
     case GradeBar::rejected:
@@ -40,6 +41,9 @@ std::string objection(const ReportStenosis& one) {
       return "not evaluable, says the reader";
     case GradeBar::image_unknown:
       return "nobody has checked it, and no image was at hand";
+    case GradeBar::unlikely:
+      return "its vessel is hardly an artery (probability " + core::shown_text(*vessel.unlikely, 2) +
+             "), and nobody has checked it";
     case GradeBar::limited:
     case GradeBar::not_evaluable:
       break;
@@ -83,7 +87,7 @@ void grade_report(CaseReport& report) {
   for (ReportStenosis& one : report.stenoses) {
     const ReportVessel& vessel = vessel_of(report, one.stenosis.vessel);
     one.evaluable = analysis::worst_within(vessel.evaluable, one.stenosis.from_mm, one.stenosis.to_mm);
-    one.not_graded = objection(one);
+    one.not_graded = objection(one, vessel);
     if (!one.not_graded.empty()) one.category.reset();
     if (thin(report, one) && one.not_graded.empty())
       one.not_graded =

@@ -93,6 +93,7 @@ Json vessel_json(const ReportVessel& v) {
           {"checked", v.checked},
           {"note", text(v.note)},
           {"evaluable", evaluable},
+          {"unlikely", v.unlikely ? number(*v.unlikely) : Json()},
           {"plaque", plaque_json(v.plaque)}};
 }
 

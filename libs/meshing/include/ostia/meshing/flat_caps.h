@@ -14,7 +14,9 @@
 namespace ostia::meshing {
 
 struct FlatCapOptions {
-  double flat_tolerance = 0.05;   ///< deviation from the cap's plane over its radius, (0, 0.5]
+  /// Deviation from the cap's plane over its radius, (0, 0.5]. VMTK's capper raises the middle of a cap by
+  /// 0.1.
+  double flat_tolerance = 0.13;
   double least_rim_deg = 50.0;    ///< between cap and wall, in the mean along the rim, [10, 90]
   double least_roundness = 0.45;  ///< 4 pi area / rim length squared: 1 for a circle, (0, 1]
   bool by_shape = true;           ///< where labels say nothing, too

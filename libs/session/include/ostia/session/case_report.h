@@ -11,6 +11,7 @@
 #include "ostia/analysis/scct_segments.h"
 #include "ostia/analysis/stenosis.h"
 #include "ostia/core/task_context.h"
+#include "ostia/coronary/certainty.h"
 #include "ostia/figure/picture.h"
 #include "ostia/imaging/scan_technique.h"
 #include "ostia/imaging/series_preview.h"
@@ -66,6 +67,8 @@ struct ReportOptions {
   std::string impression = {};  ///< in place of the case's own; empty: that one, else a draft
   analysis::HighRiskOptions high_risk = {};
   std::optional<imaging::ScanTechnique> technique = {};  ///< as the image's headers say
+  /// How likely each vessel is an artery, as the case keeps it (kept_certainty); empty: nothing is known.
+  std::vector<coronary::VesselCertainty> certainty = {};
 };
 void validate(const ReportOptions& options);  ///< throws InvalidInput
 
@@ -88,6 +91,8 @@ struct ReportVessel {
   /// How far its own part can be judged, the reader's word over the program's; empty without an image and a
   /// word.
   std::vector<analysis::EvaluableStretch> evaluable = {};
+  /// That it is an artery, where it hardly is one (unlikely_vessels): nothing of it is graded.
+  std::optional<double> unlikely = {};
 };
 
 /// A standard segment. What could not be measured is nothing.

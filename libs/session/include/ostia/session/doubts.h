@@ -6,6 +6,7 @@
 #include "ostia/session/case_file.h"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,15 @@ std::vector<coronary::VesselCertainty> kept_certainty(const CaseFile& file);
 std::vector<DoubtfulPlace> doubtful_places(const std::vector<coronary::VesselCertainty>& certainty,
                                            const lumen::LumenModel& model, const Annotations& annotations,
                                            double below = least_sure);
+
+/// Below that what was found is hardly an artery: fewer than one in ten like it is one.
+inline constexpr double least_likely = 0.1;
+
+/// Vessels that are hardly arteries, each with its probability: of those that no person has checked and whose
+/// axis still runs where it was found (one that was moved or drawn is a person's).
+std::map<std::int32_t, double> unlikely_vessels(const std::vector<coronary::VesselCertainty>& certainty,
+                                                const lumen::LumenModel& model,
+                                                const Annotations& annotations, double below = least_likely);
 
 /// "probability 0.62, 0.31 from 40.0 to 50.0 mm"; empty where nothing is below the bound.
 std::string doubt_text(const coronary::VesselCertainty& certainty, double below = least_sure);

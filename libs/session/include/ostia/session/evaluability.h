@@ -9,6 +9,7 @@
 #include "ostia/session/annotation.h"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -61,7 +62,9 @@ ScanQuality scan_quality(const imaging::Geometry& grid, double noise_hu,
                          const std::vector<VesselEvaluability>& vessels);
 
 /// Which of LAD, LCX and RCA have none of their standard segments, in words: "RCA: not found", "left coronary
-/// artery (LM, LAD, LCX): not found", with the vessels without a coronary artery's name that it may be.
-std::vector<std::string> arteries_not_found(const lumen::LumenModel& model);
+/// artery (LM, LAD, LCX): not found", with the vessels without a coronary artery's name that it may be. A
+/// vessel that is hardly an artery is none, and is named: `unlikely`, by vessel its probability.
+std::vector<std::string> arteries_not_found(const lumen::LumenModel& model,
+                                            const std::map<std::int32_t, double>& unlikely = {});
 
 }  // namespace ostia::session

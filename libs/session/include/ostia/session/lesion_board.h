@@ -3,6 +3,7 @@
 /// the reader's word.
 
 #include "ostia/analysis/lesions.h"
+#include "ostia/coronary/certainty.h"
 #include "ostia/session/evaluability_board.h"
 #include "ostia/session/found_walls.h"
 #include "ostia/session/lesion_grading.h"
@@ -39,8 +40,9 @@ struct LesionRow {
   bool checked = false;    ///< a person is done with its vessel
   bool has_image = false;  ///< an image is open, so that what is not known of it yet will be
   std::string comment;
+  bool unlikely = false;  ///< its vessel is hardly an artery (unlikely_vessels)
 
-  GradeBar bar() const { return grade_bar(state, checked, evaluable); }  ///< why it has no grade
+  GradeBar bar() const { return grade_bar(state, checked, evaluable, unlikely); }  ///< why it has no grade
 };
 
 /// A vessel whose plaque is to be measured.
@@ -86,13 +88,15 @@ class LesionBoard {
     double length_mm = 0.0;  ///< of its vessel
   };
   void drop();
+  void read_certainty();
   void touch();
-  void add_rows(const geometry::Vessel& vessel);
+  void add_rows(const geometry::Vessel& vessel, bool unlikely);
   bool unknown(std::int32_t vessel) const;
   Workbench& bench_;
   EvaluabilityBoard& evaluability_;
   std::shared_ptr<FoundWalls> found_;
   std::map<std::int32_t, Known> known_;
+  std::vector<coronary::VesselCertainty> certainty_;  ///< as the case keeps it
   std::vector<LesionRow> rows_;
   bool fresh_ = false, finding_ = false;
   std::vector<Subscription> own_;

@@ -50,6 +50,7 @@ const std::vector<Reader>& readers() {
       {"mesh_check", {surface, mesh}, {"mesh", "--check", "{}"}},
       {"lumen_surface", {surface}, {"lumen", "lines.vtp", "-o", "{out}.vtp", "--surface", "{}"}},
       {"evaluate_volume", {surface}, {"evaluate", "volume", "lumen.vtp", "{}", "--resolution", "1"}},
+      {"evaluate_volume_of_mask", {mask}, {"evaluate", "volume", "mask.nrrd", "{}"}},
       {"evaluate_surface", {surface}, {"evaluate", "surface", "lumen.vtp", "{}", "--sample", "1"}},
       {"reconstruct_wall",
        {surface},

@@ -155,7 +155,7 @@ TEST(CaseReport, OfAVesselThatIsHardlyAnArteryNothingIsGradedAndTheArteryIsNamed
   EXPECT_THAT(report.stenoses[0].not_graded, HasSubstr("hardly an artery (probability 0.01)"));
   EXPECT_EQ(to_string(report.category), "N");
   EXPECT_THAT(report.not_found,
-              Contains("RCA: not found; what was found is hardly an artery (probability of RCA 0.01)"));
+              Contains("RCA: not found, what was found is hardly an artery (probability of RCA 0.01)"));
   EXPECT_THAT(report_html(report, {}), HasSubstr("RCA: not found"));
   EXPECT_THAT(report_json(report, {}), HasSubstr("\"unlikely\": 0.01"));
 

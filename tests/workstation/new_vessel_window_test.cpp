@@ -173,7 +173,7 @@ TEST_F(SampleWindow, TheReadersWordOnOneVesselStandsWhileAnotherGoesAndComesBack
     test.picture("cpr1").setFocus();
     QTest::keyClick(test.window().windowHandle(), which, with);
     QApplication::processEvents();
-    EXPECT_TRUE(wait_until([&] { return rows->settled(); }));
+    EXPECT_TRUE(wait_until([&] { return rows->settled(); }, 120000));
   };
   const std::int32_t rca = named(bench, "RCA");
   const auto axis = lumen::vessel(*bench.model(), rca).axis;

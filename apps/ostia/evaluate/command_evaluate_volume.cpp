@@ -1,6 +1,7 @@
 #include "evaluate/covered_region.h"
 #include "evaluate/evaluate.h"
 
+#include "ostia/dicom/label_object.h"
 #include "ostia/evaluation/label_scores.h"
 #include "ostia/evaluation/volume_overlap.h"
 #include "ostia/imaging/image_file.h"
@@ -9,6 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace ostia::app {
 namespace fs = std::filesystem;
@@ -44,10 +47,44 @@ Json label_row(const evaluation::LabelScore& score) {
   return row;
 }
 
+/// A segmentation holds the slices alone that it has frames of, in its own order of axes: laid on the grid
+/// whose voxels it has. As it is where they are others.
+imaging::ImageVolume laid_on(const imaging::MaskVolume& labels, const imaging::Geometry& grid) {
+  constexpr double same_voxel = 0.01;
+  const imaging::Geometry& own = labels.geometry;
+  imaging::ImageVolume out{grid, std::vector<std::int16_t>(static_cast<std::size_t>(grid.voxels()), 0)};
+  for (std::int64_t k = 0; k < own.size[2]; ++k)
+    for (std::int64_t j = 0; j < own.size[1]; ++j)
+      for (std::int64_t i = 0; i < own.size[0]; ++i) {
+        if (labels(i, j, k) == 0) continue;
+        const auto at =
+            grid.index(own.world({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}));
+        const geometry::Vec3 near = at.array().round();
+        if ((at - near).cwiseAbs().maxCoeff() > same_voxel || !grid.contains(grid.world(near)))
+          return {own, {labels.voxels.begin(), labels.voxels.end()}};
+        out(std::lround(near.x()), std::lround(near.y()), std::lround(near.z())) = labels(i, j, k);
+      }
+  return out;
+}
+
+bool is_label_object(const fs::path& path) {
+  return dicom::label_object_kind(path) != dicom::LabelObjectKind::none;
+}
+
+/// `grid`: that of the other, where that is an image file.
+imaging::ImageVolume labels_of(const fs::path& path, const std::optional<imaging::Geometry>& grid,
+                               const core::TaskContext& task) {
+  if (!is_label_object(path)) return imaging::read_image(path, task).volume;
+  const imaging::MaskVolume labels = dicom::read_labels(path, task, grid).volume;
+  return laid_on(labels, grid.value_or(labels.geometry));
+}
+
 /// Masks and label volumes: all labels together as one mask, then each where there are several.
 Json voxel_figures(const fs::path& reference, const fs::path& result, const core::TaskContext& task) {
-  imaging::ImageVolume a = imaging::read_image(reference, task).volume,
-                       b = imaging::read_image(result, task).volume;
+  std::optional<imaging::Geometry> grid;
+  if (is_label_object(reference) && !is_label_object(result))
+    grid = imaging::read_image(result, task).volume.geometry;
+  imaging::ImageVolume a = labels_of(reference, grid, task), b = labels_of(result, a.geometry, task);
   const std::vector<evaluation::LabelScore> labels = evaluation::compare_labels(a, b, {}, task);
   for (imaging::ImageVolume* image : {&a, &b})
     for (std::int16_t& v : image->voxels) v = v != 0;

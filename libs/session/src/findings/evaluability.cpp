@@ -179,7 +179,7 @@ std::vector<std::string> arteries_not_found(const lumen::LumenModel& model,
       unnamed += (unnamed.empty() ? "" : ", ") + vessel.name;
   std::string perhaps;
   if (!unnamed.empty()) perhaps = ", or among the vessels without a coronary artery's name (" + unnamed + ")";
-  if (!hardly.empty()) perhaps += "; what was found is hardly an artery (probability of " + hardly + ")";
+  if (!hardly.empty()) perhaps += ", what was found is hardly an artery (probability of " + hardly + ")";
   const bool lad = any({6, 7, 8}), lcx = any({11, 13}), rca = any({1, 2, 3});
   std::vector<std::string> out;
   const auto add = [&](const std::string& name) { out.push_back(name + ": not found" + perhaps); };

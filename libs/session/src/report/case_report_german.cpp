@@ -108,16 +108,15 @@ Phrases quality() {
       {"%t1: not found, or among the vessels without a coronary artery's name (%2)",
        "%t1: nicht gefunden, oder unter den Gefäßen ohne den Namen einer Koronararterie (%2)"},
       {"left coronary artery (LM, LAD, LCX)", "linke Koronararterie (LM, LAD, LCX)"},
-      {"%t1: not found; what was found is hardly an artery (probability of %2)",
-       "%t1: nicht gefunden; was gefunden wurde, ist wohl keine Arterie (Wahrscheinlichkeit: %2)"},
-      {"%t1: not found, or among the vessels without a coronary artery's name (%2); what was found is hardly "
+      {"%t1: not found, what was found is hardly an artery (probability of %2)",
+       "%t1: nicht gefunden, was gefunden wurde, ist wohl keine Arterie (Wahrscheinlichkeit: %2)"},
+      {"%t1: not found, or among the vessels without a coronary artery's name (%2), what was found is hardly "
        "an "
        "artery (probability of %3)",
-       "%t1: nicht gefunden, oder unter den Gefäßen ohne Namen einer Koronararterie (%2); was gefunden "
-       "wurde, "
-       "ist wohl keine Arterie (Wahrscheinlichkeit: %3)"},
-      {"its vessel is hardly an artery (probability %1), and nobody has checked it",
-       "sein Gefäß ist wohl keine Arterie (Wahrscheinlichkeit %1), und niemand hat es geprüft"},
+       "%t1: nicht gefunden, oder unter den Gefäßen ohne den Namen einer Koronararterie (%2), was gefunden "
+       "wurde, ist wohl keine Arterie (Wahrscheinlichkeit: %3)"},
+      {"its vessel is hardly an artery", "sein Gefäß ist wohl keine Arterie"},
+      {"probability %1", "Wahrscheinlichkeit %1"},
       {"nobody has checked it, and no image was at hand", "niemand hat es geprüft, und es lag kein Bild vor"},
       {"%1 from %2 to %3 mm: not evaluable (%t4)", "%1 von %2 bis %3 mm: nicht beurteilbar (%t4)"},
       {"%1 in %2, %3 % by the model: %t4", "%1 in %2, %3 % nach dem Modell: %t4"},

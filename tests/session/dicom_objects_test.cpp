@@ -6,6 +6,8 @@
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/dicom/label_object.h"
+#include "ostia/dicom/measurement_report.h"
+#include "ostia/session/doubts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -155,6 +157,26 @@ std::vector<std::string> said_under(const std::vector<dicom::Statement>& stateme
     if (one.name.value == name)
       values.push_back(one.value ? one.value->scheme + " " + one.value->value : one.text);
   return values;
+}
+
+TEST(DicomObjects, WhatIsHardlyAnArteryHasNoGradeInTheRecordEither) {
+  SmallDicomCase made;
+  const auto assessment = [&](const char* name) {
+    write_dicom_objects(made.folder / name, made.made("sr"), made.source);
+    const auto read = dicom::read_measurement_report(made.folder / name / "measurements.dcm");
+    return said_under(read.statements, dicom::cad_assessment.value);
+  };
+  const auto of_report = [&](const std::vector<coronary::VesselCertainty>& certainty) {
+    ReportOptions options;
+    options.certainty = certainty;
+    const CaseReport report = report_of(*made.file.model(), {}, {}, &made.image, options);
+    return said_under(dicom_measurements(report, "").statements, dicom::cad_assessment.value);
+  };
+  const auto hardly = hardly_an_artery(*made.file.model(), 0.01);
+  EXPECT_EQ(assessment("likely"), of_report({}));
+  EXPECT_NE(assessment("as_likely"), of_report(hardly));
+  keep_certainty(made.file, hardly);
+  EXPECT_EQ(assessment("hardly"), of_report(hardly));
 }
 
 TEST(DicomObjects, BurdenModifiersAndHighRiskPlaqueAreInCodes) {

@@ -187,6 +187,11 @@ TEST_F(SampleWindow, TheReadersWordOnOneVesselStandsWhileAnotherGoesAndComesBack
     return std::any_of(known.begin(), known.end(), is_wanted);
   };
   ASSERT_TRUE(wait_until(is_there, 120000));
+  // What is found while a comment is being written waits until it is: the table would not rest before.
+  const auto all_found = [&] {
+    return test.window().lesions().idle() && test.window().evaluability().idle();
+  };
+  ASSERT_TRUE(wait_until(all_found, 120000));
   for (int i = 0; i <= rows->topLevelItemCount() && !is_wanted(rows->at_cursor()); ++i) key(Qt::Key_L);
   ASSERT_TRUE(is_wanted(rows->at_cursor()));
   key(Qt::Key_1, Qt::ControlModifier);  // evaluable, by the reader

@@ -71,8 +71,8 @@ bool is_label_object(const fs::path& path) {
   return dicom::label_object_kind(path) != dicom::LabelObjectKind::none;
 }
 
-/// `grid`: that of the other, where that is an image file.
-imaging::ImageVolume labels_of(const fs::path& path, const std::optional<imaging::Geometry>& grid,
+/// One of the two, read after the other where that says on which grid it lies.
+imaging::ImageVolume labels_on(const fs::path& path, const std::optional<imaging::Geometry>& grid,
                                const core::TaskContext& task) {
   if (!is_label_object(path)) return imaging::read_image(path, task).volume;
   const imaging::MaskVolume labels = dicom::read_labels(path, task, grid).volume;
@@ -81,10 +81,14 @@ imaging::ImageVolume labels_of(const fs::path& path, const std::optional<imaging
 
 /// Masks and label volumes: all labels together as one mask, then each where there are several.
 Json voxel_figures(const fs::path& reference, const fs::path& result, const core::TaskContext& task) {
-  std::optional<imaging::Geometry> grid;
-  if (is_label_object(reference) && !is_label_object(result))
-    grid = imaging::read_image(result, task).volume.geometry;
-  imaging::ImageVolume a = labels_of(reference, grid, task), b = labels_of(result, a.geometry, task);
+  imaging::ImageVolume a, b;
+  if (is_label_object(reference)) {
+    b = labels_on(result, {}, task);
+    a = labels_on(reference, b.geometry, task);
+  } else {
+    a = labels_on(reference, {}, task);
+    b = labels_on(result, a.geometry, task);
+  }
   const std::vector<evaluation::LabelScore> labels = evaluation::compare_labels(a, b, {}, task);
   for (imaging::ImageVolume* image : {&a, &b})
     for (std::int16_t& v : image->voxels) v = v != 0;

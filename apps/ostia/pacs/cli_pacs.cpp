@@ -1,5 +1,6 @@
 // The options of `ostia pacs` and its subcommands.
 
+#include "options/subcommand.h"
 #include "pacs/pacs.h"
 
 #include <CLI/App.hpp>
@@ -11,19 +12,6 @@ namespace ostia::app {
 namespace {
 
 using PacsRun = std::function<ExitCode(const core::TaskContext&)>;
-
-template <class Command>
-CLI::App* add_pacs(CLI::App& pacs, const char* name, const char* text, const char* example, Command& command,
-                   ExitCode (*one)(const Command&, const core::TaskContext&), PacsRun& run) {
-  CLI::App* sub = pacs.add_subcommand(name, text);
-  sub->footer(std::string("Example:\n  ") + example);
-  sub->fallthrough();
-  sub->callback([&command, &run, one] {
-    run = [&command, one](const core::TaskContext& task) { return one(command, task); };
-  });
-  sub->add_flag("--json", command.json, "One JSON object on standard output");
-  return sub;
-}
 
 void add_login(CLI::App& app, PacsServerOptions& o) {
   app.add_option(
@@ -41,10 +29,11 @@ void add_server(CLI::App& app, PacsServerOptions& o) {
 }
 
 void add_find(CLI::App& pacs, PacsFindCommand& c, PacsRun& run) {
-  CLI::App* find = add_pacs(pacs, "find", "Studies, the series of a study, or the images of a series",
-                            "ostia pacs find hospital --patient-name 'DOE^J*' --from 20260101 --modality CT\n"
-                            "  ostia pacs find hospital --study 1.2.3",
-                            c, run_pacs_find, run);
+  CLI::App* find =
+      add_subcommand_of(pacs, "find", "Studies, the series of a study, or the images of a series",
+                        "ostia pacs find hospital --patient-name 'DOE^J*' --from 20260101 --modality CT\n"
+                        "  ostia pacs find hospital --study 1.2.3",
+                        c, run_pacs_find, run);
   add_server(*find, c.at);
   find->add_option("--level", c.level,
                    "What is looked for; left out: studies, series with --study, images with --series, too")
@@ -71,27 +60,29 @@ void define_pacs(CLI::App& app, PacsCommands& c, PacsRun& run) {
   pacs->require_subcommand(1);
   pacs->fallthrough();
 
-  CLI::App* echo = add_pacs(*pacs, "echo", "Whether a server answers and lets us in",
-                            "ostia pacs echo hospital --servers servers.json", c.echo, run_pacs_echo, run);
+  CLI::App* echo =
+      add_subcommand_of(*pacs, "echo", "Whether a server answers and lets us in",
+                        "ostia pacs echo hospital --servers servers.json", c.echo, run_pacs_echo, run);
   add_server(*echo, c.echo.at);
   add_find(*pacs, c.find, run);
 
-  CLI::App* get =
-      add_pacs(*pacs, "get", "A series as a folder, whole or not at all",
-               "ostia pacs get hospital --study 1.2.3 --series 1.2.3.4 -o CT", c.get, run_pacs_get, run);
+  CLI::App* get = add_subcommand_of(*pacs, "get", "A series as a folder, whole or not at all",
+                                    "ostia pacs get hospital --study 1.2.3 --series 1.2.3.4 -o CT", c.get,
+                                    run_pacs_get, run);
   add_server(*get, c.get.at);
   get->add_option("--study", c.get.study, "UID of the study")->required();
   get->add_option("--series", c.get.series, "UID of the series")->required();
   get->add_option("-o,--output", c.get.output, "Folder that is made")->required();
 
-  CLI::App* send = add_pacs(*pacs, "send", "DICOM objects to a server; sent twice they are there once",
-                            "ostia pacs send hospital report.dcm --queue outbox", c.send, run_pacs_send, run);
+  CLI::App* send =
+      add_subcommand_of(*pacs, "send", "DICOM objects to a server; sent twice they are there once",
+                        "ostia pacs send hospital report.dcm --queue outbox", c.send, run_pacs_send, run);
   add_server(*send, c.send.at);
   send->add_option("INPUT", c.send.inputs, "DICOM files, or folders of them")->required();
   send->add_option("--queue", c.send.queue, "Folder in which waits what cannot be sent now");
 
-  CLI::App* queue = add_pacs(*pacs, "queue", "What waits to be sent, was sent or was refused",
-                             "ostia pacs queue outbox --send", c.queue, run_pacs_queue, run);
+  CLI::App* queue = add_subcommand_of(*pacs, "queue", "What waits to be sent, was sent or was refused",
+                                      "ostia pacs queue outbox --send", c.queue, run_pacs_queue, run);
   queue->add_option("QUEUE", c.queue.queue, "Folder of `ostia pacs send --queue`")->required();
   add_login(*queue, c.queue.at);
   queue->add_flag("--send", c.queue.send, "Try what waits");

@@ -185,7 +185,7 @@ void SceneWidget::refresh() {
 void SceneWidget::make_wall() {
   wall_stale_ = false;
   wall_unseen_ = true;
-  made_wall_.reset();
+  made_wall_.reset(), made_of_.reset();
   if (bench_.has_case()) {
     made_of_ = bench_.session().file().model();
     made_wall_ = std::make_shared<const geometry::TriMesh>(bench_.session().live().wall(screen_cell_mm));

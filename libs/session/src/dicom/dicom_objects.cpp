@@ -7,6 +7,7 @@
 #include "ostia/dicom/documents.h"
 #include "ostia/dicom/segmentation.h"
 #include "ostia/lumen/tree_surface.h"
+#include "ostia/session/doubts.h"
 
 #include <nlohmann/json.hpp>
 
@@ -294,6 +295,7 @@ DicomObjects dicom_objects(const CaseFile& file, const dicom::SourceSeries& sour
   if (pictures || wanted(DicomObjectKind::measurements)) {
     ReportOptions how = options.report;
     if (!how.image) how.image = own;
+    how.certainty = kept_certainty(file);
     const analysis::SurfaceOfVessel surfaces = solved_surfaces(*file.model(), task.sub(0.5, 0.6));
     const CaseReport report = make_case_report(*file.model(), surfaces, *file.annotations(), file.journal(),
                                                image, how, task.sub(0.6, 0.75));
